@@ -44,7 +44,7 @@ def record(
     contacts: Contacts, i: int, time: AlgebraicNumber | None, touches: Sequence[Touch],
     *, initial: bool,
 ) -> None:  # fmt: skip
-    """A pair decided exactly; no contact if the time is None."""
+    """Record a pair decided exactly; no contact if the time is None."""
     contacts.exact[i] = True
     if time is None:
         return

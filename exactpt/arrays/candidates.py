@@ -88,7 +88,7 @@ class Candidates(NamedTuple):
         return ExactRelative((u,), (start, *moved), shift)
 
     def listed(self, o: Outlines, low: Floats, high: Floats) -> list[Candidate]:
-        """Records of them, with bounds of their times; features are numbered in their bodies."""
+        """Return their records, with bounds of their times; features by number in their bodies."""
         columns = (low, high, self.second, *self.numbered(o))
         rows = zip(*(column.tolist() for column in columns), strict=True)
         return [Candidate(a, b, Touch(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
@@ -105,7 +105,7 @@ class Candidates(NamedTuple):
         return vertex, np.where(self.corner < 0, edge, -1), np.where(self.corner < 0, -1, corner)
 
     def joined(self, other: Candidates) -> Candidates:
-        """These, and then others."""
+        """Return these, followed by others."""
         return Candidates(*map(np.concatenate, zip(self, other, strict=True)))
 
 

@@ -90,7 +90,7 @@ class Question:
         return plain and self._first_only() == self._defaults()
 
     def to_json(self) -> dict[str, object]:
-        """What answers depend on; two questions with the same have the same answers."""
+        """Return the options on which answers depend, as one value."""
         numbers = {
             name: None if value is None else str(rational(value))
             for name in ("distance", "until", "since")

@@ -55,29 +55,29 @@ class Observer:
         """Time is about to pass; the scene is that since the last change of motions."""
 
     def changed(self, changed: set[HalfEdge] | None) -> None:
-        """An event time has been processed, or none was left up to a time, which is now.
+        """Process an event time, or a time without an event before it, which is now.
 
         Args:
             changed: see `Tiling.changes`.
         """
 
     def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
-        """An event time has been processed, which is now, with these events."""
+        """Process an event time, which is now, with these events."""
 
     def passed(self, tiling: Tiling) -> None:
-        """An event time has been processed, which is now."""
+        """Process an event time, which is now."""
 
     def reached(self, tiling: Tiling) -> None:
-        """No event was left up to a time, which is now."""
+        """Process the end of a run without another event, which is now."""
 
     def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
-        """The run has ended with a contact now; the tiling is the one just before."""
+        """Process a contact now, which ends the run; the tiling is the one just before."""
 
     def change(self, t: QQ) -> None:
-        """Motions or bodies have changed at a rational time."""
+        """Process a change of motions or bodies at a rational time."""
 
     def finish(self) -> None:
-        """The run is no longer observed."""
+        """Finish the observation of the run."""
 
 
 @final

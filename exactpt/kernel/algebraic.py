@@ -166,7 +166,7 @@ class AlgebraicNumber(RealNumber):
         return enclosing_doubles(self)
 
     def _as_root_of(self, f: IntPoly) -> AlgebraicNumber:
-        """This number, represented as a root of f if it is irrational.
+        """Return this number, represented as a root of f if it is irrational.
 
         Args:
             f: a nonzero polynomial that vanishes at this number.

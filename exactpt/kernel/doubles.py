@@ -90,7 +90,7 @@ def view(vector: Any) -> NDArray[Any]:  # noqa: ANN401 - its type is that of no 
 
 
 def native(counts: Indices) -> NDArray[np.intp]:
-    """Counts or indices as `numpy.repeat`, ``reduceat`` and `numpy.bincount` take them.
+    """Return counts or indices as `numpy.repeat`, ``reduceat`` and `numpy.bincount` take them.
 
     That is as integers of a pointer's size: where it has 32 bits, they take no others.
     """

@@ -228,7 +228,7 @@ class IsolatedRoot:
         return -1
 
     def simplified(self) -> Self:
-        """This number, made known as rational in place if it is, whatever its polynomial.
+        """Return this number, recognised as rational in place if it is.
 
         A rational root p/q of an integer polynomial has q dividing the leading
         coefficient c (Gauss), so c * root is an integer: one candidate is left once

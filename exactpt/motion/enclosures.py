@@ -151,7 +151,7 @@ class Enclosures:
         return number
 
     def begin_linear(self, velocities: Floats, error: float) -> Indices:
-        """Number the linear translations with these velocities, the first enclosures of all.
+        """Assign numbers to linear translations with these velocities, the first enclosures.
 
         Args:
             velocities: shape (n, 2), exact.

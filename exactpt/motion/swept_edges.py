@@ -119,7 +119,7 @@ class SweptEdges:
         return step, later, found
 
     def _many(self) -> int:
-        """Number of candidates above which a slab is shortened."""
+        """Return the number of candidates above which a slab is shortened."""
         return 2 * len(self.ids) + 64
 
     def _first_step(self) -> QQ:

@@ -373,7 +373,7 @@ class Separation:
         return below, above
 
     def _directions(self, frame: Frame, items: Items, rows: Items) -> Floats:
-        """Normals of some edges, and directions between nearest vertices of two groups."""
+        """Return normals of some edges, and directions between nearest vertices of two groups."""
         some = rows if len(rows) <= MANY else rows[:: len(rows) // MANY]
         u, v = frame.ends[:, frame.ends_of[some, 0]], frame.ends[:, frame.ends_of[some, 1]]
         along = np.concatenate([(v - u)[0], (v - u)[1]])

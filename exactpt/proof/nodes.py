@@ -146,7 +146,7 @@ def _deforms_from(body: Body, start: QQ, end: QQ) -> QQ | None:
 
 
 def _product(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:
-    """(a - v) . (b - v), as numerator and denominator."""
+    """Return (a - v) . (b - v), as numerator and denominator."""
     f = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))
     g = multiply(difference(v.y, v.w, a.y, a.w), difference(v.y, v.w, b.y, b.w))
     return add(f, g), multiply(multiply(v.w, a.w), multiply(v.w, b.w))

@@ -62,7 +62,7 @@ class Shadows:
         return shadow(mesh, h, predicates)
 
     def keep(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> None:
-        """Called with the visits of a diagonal that has been found greedy."""
+        """Record the visits of a diagonal that has been found greedy."""
 
 
 def flip_until_greedy(

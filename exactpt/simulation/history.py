@@ -123,7 +123,7 @@ class Log:
                 self._mark(t, "plan", name)
 
     def _mark(self, t: QQ, kind: str, name: str) -> None:
-        """Marks of one kind at one time are one."""
+        """Add a mark; marks of one kind at one time are merged."""
         last = self._marks[-1] if self._marks else None
         if last is not None and last.kind == kind and last.time.compare_rational(t) == 0:
             if name not in last.bodies:

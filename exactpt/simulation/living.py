@@ -137,7 +137,7 @@ class LivingScene:
         return now._low
 
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
-        """Changes motions, see `Simulation.set_motions`; returns the events caused at once."""
+        """Change motions, see `Simulation.set_motions`; return the events caused at once."""
         t = self.rational_now()
         new = {self._index(name): planned(self.body(name), plan, t) for name, plan in plans.items()}
         events = self.kinetic.change_plans(new, t)
@@ -151,7 +151,7 @@ class LivingScene:
         return events_of(self.kinetic, events)
 
     def add(self, body: Body) -> list[Event]:
-        """Adds a body, see `Simulation.add`; returns the events caused at once."""
+        """Add a body, see `Simulation.add`; return the events caused at once."""
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
@@ -172,7 +172,7 @@ class LivingScene:
         return events_of(self.kinetic, events)
 
     def remove(self, name: str) -> list[Event]:
-        """Removes a body, see `Simulation.remove`; returns the events caused at once."""
+        """Remove a body, see `Simulation.remove`; return the events caused at once."""
         t = self.rational_now()
         i, kinetic = self._index(name), self.kinetic
         rings = any(body.has_rings for body in self._bodies)

@@ -30,7 +30,7 @@ TINY: Final = 1e-9
 def normals_at(
     first: tuple[Body, int], second: tuple[Body, int], velocity: Vector, t: QQ
 ) -> list[Vector]:
-    """Unit vectors along which the first of two vertices is to be pushed off the second.
+    """Return unit vectors that push the first of two vertices off the second.
 
     Args:
         first: a body and the index of its vertex.

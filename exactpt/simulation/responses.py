@@ -202,7 +202,7 @@ class Bounce:
         return True
 
     def _shares(self, pair: Pair) -> list[tuple[str, float]]:
-        """What each body of a pair takes of a change of the speed between them; the sum is 1.
+        """Return the share of each body of a pair in a change of relative speed; the sum is 1.
 
         It is in inverse proportion to the mass; that of a fixed body is infinite. Masses are
         divided by the larger one, as neither their inverses nor their sum need be a double.

@@ -158,7 +158,7 @@ class Run:
 
     @contextmanager
     def _guarded(self) -> Iterator[None]:
-        """A context in which the budget holds, and a broken invariant carries the scene."""
+        """Return a context in which the budget holds; a broken invariant carries the scene."""
         try:
             with self._budget.held():
                 yield

@@ -58,7 +58,7 @@ def scene_from_json(data: Mapping[str, Any]) -> Scene:
 
 @contextmanager
 def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]]:
-    """The data of a file; an error in using it inside the context is an input error.
+    """Yield the data of a file; errors of its use inside the context are input errors.
 
     Raises:
         InputError: if the file cannot be read, is larger than ``max_bytes``, of another version,

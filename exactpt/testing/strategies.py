@@ -49,17 +49,17 @@ def convex_polygons(most: int = 8) -> SearchStrategy[Outline]:
 
 
 def simple_polygons(most: int = 8) -> SearchStrategy[Outline]:
-    """Simple polygons of 3 to ``most`` vertices, counter-clockwise, convex or not."""
+    """Draw simple polygons of 3 to ``most`` vertices, counter-clockwise, convex or not."""
     return _points(3, most).map(_monotone).filter(lambda outline: len(outline) > 2)
 
 
 def chains(most: int = 6) -> SearchStrategy[Outline]:
-    """Simple open chains of 2 to ``most`` vertices; they never turn back in x."""
+    """Draw simple open chains of 2 to ``most`` vertices; they never turn back in x."""
     return _points(2, most).map(sorted)
 
 
 def motions(*, degree: int = 1, turning: bool = False) -> SearchStrategy[Translation | Rigid]:
-    """Translations with polynomials up to a degree; with ``turning``, half of them turn too."""
+    """Draw translations with polynomials up to a degree; if ``turning``, half of them turn."""
     path = st.lists(coordinates(2), max_size=degree).map(lambda c: [0.0, *c])
     translations = st.builds(Translation, path, path)
     if not turning:
@@ -89,7 +89,7 @@ def pairs_in_motion(family: str | None = None) -> SearchStrategy[Question]:
 
 
 def scenes(family: str | None = None) -> SearchStrategy[Scene]:
-    """Valid scenes.
+    """Return a strategy of valid scenes.
 
     Args:
         family: one of `exactpt.testing.FAMILIES` (two bodies), or one that `exactpt generate`
@@ -107,7 +107,7 @@ def scenes(family: str | None = None) -> SearchStrategy[Scene]:
 
 
 def space_queries(kind: Kind, family: str | None = None) -> SearchStrategy[SpaceQuery]:
-    """Queries about a vertex and a triangle, or about two segments, in space.
+    """Return a strategy of queries about a vertex and a triangle, or about two segments, in space.
 
     Args:
         kind: "vertex-face" or "edge-edge".

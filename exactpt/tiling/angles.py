@@ -48,10 +48,10 @@ class Followers:
         """Certify again what depends on the motion of a body, except for angles."""
 
     def changed(self, half_edges: list[HalfEdge]) -> None:
-        """Called when the angles of these half-edges have changed."""
+        """Follow a change of the angles of these half-edges."""
 
     def cancelled(self, h: HalfEdge) -> None:
-        """Called when an edge has been removed: cancel its certificates."""
+        """Follow the removal of an edge: cancel its certificates."""
 
 
 @final

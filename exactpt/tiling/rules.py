@@ -100,7 +100,7 @@ class Rules(Followers, ABC):
     # Certificates
 
     def failed(self, certificates: list[CertificateId]) -> None:
-        """Called at every event with the failed certificates, except for angles and bodies."""
+        """Process the failed certificates of an event, except those of angles and bodies."""
         if certificates:
             raise AuditError(f"unknown certificates {certificates}")
 
@@ -114,7 +114,7 @@ class Rules(Followers, ABC):
         """Repair one violated certificate; called when no angle is violated."""
 
     def turns_reflex(self, h: HalfEdge) -> None:
-        """Called when the vertex at the origin of h becomes reflex, before the repair."""
+        """Follow a vertex, the origin of h, that becomes reflex, before the repair."""
 
     def check(self, touched: list[HalfEdge]) -> None:
         """Check the tiles of half-edges after several repairs of one time that interact.

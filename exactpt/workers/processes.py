@@ -181,7 +181,7 @@ def _ended(
     tries: Counter[Item],
     again: deque[Item],
 ) -> Iterator[Result]:
-    """What becomes of the item of a worker that has ended."""
+    """Return the next state of the item of a worker that has ended."""
     item = worker.item
     if item is None:
         return

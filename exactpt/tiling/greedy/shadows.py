@@ -192,7 +192,7 @@ class CertifiedShadows(Shadows):
             self._found.append(h)
 
     def _change(self, h: HalfEdge, end: _End) -> i64:
-        """What at an end is not as certified, its vertex apart."""
+        """Return the difference of an end from its certified state, the vertex ignored."""
         mesh, visit = self._certified.mesh, end.visit
         origin = mesh.map.origin
         if is_corner_without(mesh, h, visit, self._certified.after()) != end.is_corner:
