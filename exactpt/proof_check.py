@@ -693,7 +693,7 @@ class Body:
         return [(a * x + b * y + e, c * x + d * y + f) for x, y in points]
 
     def check_simple(self, places: Sequence[Point]) -> None:
-        """Check that edges meet only where they are joined, and where holes and parts are."""
+        """Check that edges meet only where joined, and that holes and parts are in place."""
         need(is_simple(places, self.edges, self.first), f"{self.name!a} is not simple at the start")
         if len(self.rings) == 1:
             return

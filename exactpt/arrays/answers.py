@@ -20,7 +20,7 @@ def record_edges(
     body: Indices | int = 0, vertex: Indices | int = 0, edge: Indices | int = 0,
     other_vertex: Indices | int = -1,
 ) -> None:  # fmt: skip
-    """Contacts of one vertex with the inside of one edge, or with one vertex, found by a filter."""
+    """Record contacts found by a filter: of a vertex with a vertex or the inside of an edge."""
     contacts.found[pairs] = True
     kinds = np.array([KINDS.index("vertex-vertex"), KINDS.index("vertex-edge")])
     contacts.kind[pairs] = kinds[np.asarray(other_vertex < 0).astype(np.int64)]
@@ -33,7 +33,7 @@ def record_edges(
 
 
 def record_overlaps(contacts: Contacts, pairs: Indices, start: Floats) -> None:
-    """Bodies that overlap at the start, without an incidence."""
+    """Record bodies that overlap at the start, without an incidence."""
     contacts.found[pairs] = True
     contacts.kind[pairs] = KINDS.index("initial")
     contacts.low[pairs] = start

@@ -122,7 +122,7 @@ def _first_zeros(
     cs: Sequence[Coefficient], now_low: Floats | float, now_high: Floats | float,
     horizon: Floats, at_root: Flags,
 ) -> Answers:  # fmt: skip
-    """Return the first zero of each polynomial after now; sign 0 where it is undecided."""
+    """Return each polynomial's first zero after now, up to the horizon; sign 0 if undecided."""
     if len(cs) == 2:
         (c0, e0), (c1, e1) = cs
         return linears(c0, c1, e0, e1, now_low, now_high, horizon, at_root)

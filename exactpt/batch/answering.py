@@ -57,7 +57,7 @@ def answers_of(contents: Sequence[bytes], question: Question) -> Iterator[Answer
 
 
 def answer(content: bytes, question: Question) -> Answer:
-    """Return the answer to a question about a scene as JSON; why there is none as ``{"error"}``."""
+    """Return the answer about a scene as JSON, or ``{"error"}`` with the reason."""
     if len(content) > question.max_bytes:
         return {"error": f"more than {question.max_bytes} bytes"}
     try:

@@ -123,7 +123,7 @@ _SIDES = [(f"{what}_{side}", what) for side in "ab" for what in ("body", "vertex
 def table(
     write: Callable[[bytes], None], rows: Rows | None = None
 ) -> Iterator[Callable[[bytes], None]]:
-    """Give a function that takes lines of answers and writes them as rows of a Parquet file.
+    """Yield a function that takes lines of answers and writes them as rows of a Parquet file.
 
     Its columns are those of docs/format.md, and all columns of the input but the scenes.
 

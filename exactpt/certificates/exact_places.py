@@ -38,7 +38,7 @@ class ExactPlaces:
         self._after: bool = after
 
     def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """Return the sign of (b - a) x (d - c) at the instant, or `NOT_EXACT`."""
+        """Return the sign of (b - a) x (d - c) at the instant; `NOT_EXACT` if it is not certain."""
         if not self._are_exact:
             return NOT_EXACT
         x, y = self._x, self._y
@@ -61,7 +61,7 @@ class ExactPlaces:
         )
 
     def order(self, a: VertexId, b: VertexId) -> int:
-        """1 if a is left of b (`Predicates.left_of`), -1 if right, for one x; 0 if not certain.
+        """Return 1 if a is left of b (`Predicates.left_of`), -1 if right, for one x; 0: undecided.
 
         Just after the instant x(b) - x(a) has the sign of its slope, since the trajectories are
         straight. Where that is identically zero, y decides.

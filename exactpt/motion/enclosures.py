@@ -252,7 +252,7 @@ def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
 
 
 def _common_of(turning: Turning, frame: Frame) -> _Common | None:
-    """Return the common part of the arms of all vertices of a motion; None if there are none."""
+    """Return the common part of the arms of all vertices of a motion; None if there is none."""
     paths = turning.x._coefficients, turning.y._coefficients
     h = turning.half_turn
     w = ONE + h * h

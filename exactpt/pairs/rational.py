@@ -166,7 +166,7 @@ def first_incidence(
 def _meeting(
     a: Straight, b: Straight, path: tuple[QQ, QQ, QQ, QQ], vertex: int, edge: int
 ) -> tuple[QQ, int] | None:
-    """When a vertex of a, moving relative to b, first lies on an edge of b: exactly.
+    """Return when a vertex of a, moving relative to b, first lies on an edge of b: exactly.
 
     Returns:
         The time, and the end of the edge at which it is, or -1; None if it never lies on the
@@ -197,7 +197,7 @@ def _meeting(
 
 
 def _passing(zx: QQ, zy: QQ, wx: QQ, wy: QQ, point: int) -> tuple[QQ, int] | None:
-    """Return the time of z + w t = 0, with the point."""
+    """Return the time at which z + w t = 0, with the point there; None if never or always."""
     if zx * wy != zy * wx or not (wx or wy):
         return None
     return (-zx / wx if wx else -zy / wy), point

@@ -164,7 +164,7 @@ class SelectedSearch:
         return time, renumbered(touches, i, j)
 
     def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
-        """Return the first contact of bodies that are disjoint at the start (one: with itself)."""
+        """Return the first contact of a pair disjoint at the start, or of a body with itself."""
         scene = self._scene
         if until <= scene._start:
             return None
