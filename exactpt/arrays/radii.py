@@ -38,8 +38,9 @@ def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tup
     The distance of a point from a segment changes by at most the displacements of the point and
     of the ends relative to it: of u and w, U (|u| + |w|) and the absolute error of w. With the
     foot at an inexact ratio of the ends, the computed distance is too large by at most the
-    displacement of the foot, 6 U |w|: the ratio is off by 6 U |w| / |u|, if |u|^2 is not tiny.
-    Computing it takes 7 U (|u| + |w|) more.
+    displacement of the foot, 6 U |w|: the ratio is off by 6 U |w| / |u|, if |u|^2 is not tiny and
+    (|u| + |w|)^2, which bounds u . u and the products of u . w, does not overflow. Computing it
+    takes 7 U (|u| + |w|) more.
     """
     candidates, starts = all_candidates(o, i, j)
     r = candidates.relative(o, motions)
@@ -49,9 +50,11 @@ def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tup
     if r.length is not None:
         at *= r.length
     far = np.hypot(wx - at * ux, wy - at * uy)
-    error = 2.0 * K * (np.abs(ux) + np.abs(uy) + np.abs(wx) + np.abs(wy))
+    size = np.abs(ux) + np.abs(uy) + np.abs(wx) + np.abs(wy)
+    error = 2.0 * K * size
     error = (error + (0.0 if r.off_w[0] is None else 2.0 * r.off_w[0])) * SLACK + TINY
-    least = np.where(square > SMALL, far - error, -INFINITY)
+    sure = (square > SMALL) & (size * size < INFINITY)
+    least = np.where(sure, far - error, -INFINITY)
     low, high = (
         np.minimum.reduceat(f, native(starts)).reshape(2, -1).min(axis=0)
         for f in (least, far + error)
@@ -117,13 +120,16 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
 
     A polynomial on an interval is between the least and the greatest of its Bernstein coefficients
     b_0, ..., b_n there, and so is its derivative between those of the n (b_k+1 - b_k), over the
-    length. Intervals in which it is surely positive are left out, the others are halved, until it
-    surely falls from a positive to a negative number: there it has one zero.
+    length. Intervals in which it is surely positive are left out, and those at whose start it is
+    surely negative: a zero is before. The others are halved, until it surely falls from a positive
+    to a negative number: there it has one zero. Where all b_k are within their error, so are those
+    of the halves: such an interval stays undecided.
 
-    The b_k are sums of shares of the terms c_k t^k, whose errors add up to at most ``off``; a
-    halving adds at most n U times the largest b_k of the whole interval.
+    The b_k are sums of shares of the terms c_k t^k, whose errors add up to at most ``off``, if no
+    power of t underflows; a halving adds at most n U times the largest b_k of the whole interval.
     """
     n = len(fs) - 1
+    until = np.minimum(until, 1.0 / TINY)  # so late, powers overflow
     terms, size, off, power = [], np.zeros_like(until), np.zeros_like(until), np.ones_like(until)
     for c, e in fs:
         terms.append(c * power)
@@ -132,10 +138,15 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
         sum(comb(k, m) / comb(n, m) * terms[m] for m in range(k + 1)) for k in range(n + 1)
     ])  # fmt: skip
     off = (off + (8 + 4 * n + n * DEPTH) * U * size) * SLACK + TINY
-    low, high = np.full(len(until), INFINITY), np.full(len(until), INFINITY)
+    off[~(power > TINY)] = INFINITY
+    low, high, undecided = (np.full(len(until), INFINITY) for _ in range(3))
     row, begin, width = np.arange(len(until)), np.zeros(len(until)), 1.0
-    for _ in range(DEPTH):
-        may = ~(b.min(axis=0) > off[row]) & ~(begin * until[row] > high[row])
+    for depth in range(DEPTH + 1):
+        e = off[row]
+        may = ~(b.min(axis=0) > e) & ~(b[0] < -e) & ~(begin * until[row] > high[row])
+        lost = may if depth == DEPTH else may & ~(np.abs(b).max(axis=0) > e)
+        np.minimum.at(undecided, row[lost], begin[lost] * until[row[lost]] * (1.0 - 4.0 * U))
+        may = may & ~lost
         b, row, begin = b[:, may], row[may], begin[may]
         if not len(row):
             break
@@ -146,8 +157,9 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
             start, length = begin[alone] * until[some], width * until[some]
             slope = n * (fall - 2.0 * e)[alone] / length
             zero, error = _zero([(c[some], e[some]) for c, e in fs], start, start + length, slope)
-            np.minimum.at(low, some, zero - error)
-            np.minimum.at(high, some, zero + error)
+            # fmax and fmin take the other number instead of a NaN, which is no bound.
+            np.minimum.at(low, some, np.fmax(zero - error, start * (1.0 - 4.0 * U)))
+            np.fmin.at(high, some, zero + error)
         b, row, begin = b[:, ~alone], row[~alone], begin[~alone]
         left, right = [b[0]], [b[-1]]
         for _ in range(n):
@@ -157,10 +169,8 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
         width *= 0.5
         b = np.concatenate((left, right[::-1]), axis=1)
         row, begin = np.tile(row, 2), np.concatenate((begin, begin + width))
-    open_ = ~(begin * until[row] > high[row]) & ~(b.min(axis=0) > off[row])
-    np.minimum.at(low, row[open_], begin[open_] * until[row[open_]] * (1.0 - 4.0 * U))
-    high[row[open_]] = INFINITY
-    return Meetings(low, high)
+    high[undecided <= high] = INFINITY
+    return Meetings(np.minimum(low, undecided), high)
 
 
 def _zero(

@@ -136,3 +136,36 @@ def test_intervals_are_halved_while_needed_alone(monkeypatch):
     monkeypatch.setattr(of_radii, "DEPTH", 6)
     found = table(3, 2, 200, is_grid=False)
     assert found.exact.mean() < 0.05
+
+
+def test_a_segment_whose_squared_length_overflows():
+    """A long capsule: the foot of a near point is inside its core, where doubles see the end."""
+    found = arrays.first_contacts(
+        [(-8e153, 0), (1.2e154, 0), (0, 1e140), (0, 2e140)], [0, 2, 4], [(0, 1)], radii=[1e150, 0]
+    )
+    assert faults(found) == []
+
+
+def test_a_span_that_is_longer_than_the_largest_double():
+    motions = np.zeros((2, 2, 3))
+    motions[0, 0], motions[1, 1] = [0, 1e-9, 0], [0, 0, 1e-300]
+    found = arrays.first_contacts(
+        [(0, 0), (5, 0)], [0, 1, 2], [(0, 1)], coefficients=motions, radii=1.0,
+        time=(-1.7e308, 1.7e308),
+    )  # fmt: skip
+    assert found.found.tolist() == [True]
+    assert faults(found) == []
+
+
+@pytest.mark.parametrize(("at", "end"), [(4.0, 1e70), (2.0, 1.0)])
+def test_intervals_without_a_decision_are_not_halved(monkeypatch, at, end):
+    """Those in which errors are all, and those after a contact at the start."""
+    lengths, tile = [], np.tile
+    monkeypatch.setattr(np, "tile", lambda a, n: lengths.append(n * len(a)) or tile(a, n))
+    motions = np.zeros((2, 2, 3))
+    motions[1, 0] = [0, -1, 0.25 / end]
+    found = arrays.first_contacts(
+        [(0, 0), (at, 0)], [0, 1, 2], [(0, 1)], coefficients=motions, radii=1.0, time=(0, end)
+    )
+    assert faults(found) == []
+    assert max(lengths, default=0) <= 2
