@@ -31,6 +31,8 @@ MOST: Final = 2.0**19
 """Its largest one."""
 FAR: Final = 8.0
 """Number of extents from the origin up to which a scene certainly needs no shift."""
+BLUR: Final = 2.0**-30
+"""Maximum error of rounded positions, in extents."""
 K: Final = 8.0 * U
 """Relative bound on the rounding of a 2 x 2 determinant of differences of doubles."""
 
@@ -89,10 +91,13 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
         places = given.vertices + shifts
         of_shift = places - given.vertices
         lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
-        near = places + given.velocities[owner] * float(start)
+        moves = given.velocities[owner] * nearest_float(start)
+        near = places + moves
+        # Each of the two terms errs by at most 2 U of its size, their sum by U of that of both.
+        blur = 4.0 * U * (np.abs(places).max() + np.abs(moves).max())
     if not (np.isfinite(near).all() and np.isfinite(lost).all()):
         return None
-    frame = _frame(near, start, end, is_exact=start == 0 and not lost.any())
+    frame = _frame(near, start, end, 0.0 if start == 0 and not lost.any() else float(blur))
     if frame is None:
         return None
     units = np.array(frame.scale)
@@ -158,21 +163,23 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     return _Given(np.array([xs, ys]).T, np.array(offsets), moves[:, :, 0], moves[:, :, 1])
 
 
-def _frame(near: Floats, start: QQ, end: QQ, *, is_exact: bool) -> Frame | None:
+def _frame(near: Floats, start: QQ, end: QQ, blur: float) -> Frame | None:
     """Return the frame of positions at the start; None if it shifts, or is not certain.
 
-    Rounded positions, whose errors are below 2^-30 of the extents that are accepted, must certainly
-    need neither a shift nor a scale.
+    Rounded positions, with errors of up to ``blur``, must certainly need neither a shift nor a
+    scale: so it may be at most `BLUR` of their extents.
     """
     low, high = near.min(axis=0), near.max(axis=0)
     extent, far = high - low, np.maximum(abs(low), abs(high))
-    if is_exact:
+    if not blur:
         least = near[np.abs(near).argmin(axis=0), (0, 1)]
         points = [
             (QQ(*x.as_integer_ratio()), QQ(*y.as_integer_ratio()))
             for x, y in (low.tolist(), high.tolist(), least.tolist())
         ]
-    elif ((extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent)).all():
+    elif (
+        (extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent) & (blur <= BLUR * extent)
+    ).all():
         points = [(QQ(0), QQ(0)), (QQ(1), QQ(1))]
     else:
         return None

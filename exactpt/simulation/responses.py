@@ -100,7 +100,7 @@ class Bounce:
         # A misspelt name would be a body that is pushed away, or of another mass.
         self._unseen = dict.fromkeys(fixed, "fixed") | dict.fromkeys(masses, "masses")
         self._restitution = nearest_float(rational(restitution))
-        self._masses = {name: nearest_float(rational(mass)) for name, mass in masses.items()}
+        self._masses = {name: rational(mass) for name, mass in masses.items()}
         self._slowest = nearest_float(rational(slowest))
         self._fastest = math.inf if fastest is None else nearest_float(rational(fastest))
         self._grid = rational(grid)
@@ -149,7 +149,7 @@ class Bounce:
     def _moving(self, simulation: Simulation) -> list[tuple[QQ, tuple[QQ, QQ]]]:
         """Return the masses and velocities of all bodies that are not fixed."""
         return [
-            (rational(self._masses.get(body.name, 1.0)), translation_velocity(body, simulation.now))
+            (self._masses.get(body.name, QQ(1)), translation_velocity(body, simulation.now))
             for body in simulation.scene.bodies
             if body.name not in self._fixed
         ]
@@ -165,8 +165,9 @@ class Bounce:
 
     def __reduce__(self) -> tuple[object, ...]:
         fastest = None if math.isinf(self._fastest) else self._fastest
+        masses = {name: str(mass) for name, mass in self._masses.items()}
         options = {
-            "restitution": self._restitution, "masses": self._masses, "slowest": self._slowest,
+            "restitution": self._restitution, "masses": masses, "slowest": self._slowest,
             "fastest": fastest, "grid": str(self._grid),
         }  # fmt: skip
         return made, (Bounce, (tuple(sorted(self._fixed)),), options)
@@ -210,7 +211,7 @@ class Bounce:
         names = (pair.body, pair.other)
         if not self._fixed.isdisjoint(names):
             return [(name, 0.0 if name in self._fixed else 1.0) for name in names]
-        a, b = (self._masses.get(name, 1.0) for name in names)
+        a, b = (nearest_float(self._masses.get(name, QQ(1))) for name in names)
         heavy = max(a, b)
         a, b = a / heavy, b / heavy
         return [(pair.body, b / (a + b)), (pair.other, a / (a + b))]

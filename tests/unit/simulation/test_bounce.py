@@ -265,6 +265,16 @@ def test_momentum_and_kinetic_energy_have_the_masses_of_a_bounce():
     assert float(bounce.kinetic_energy(simulation)) == pytest.approx(8, abs=20 * EXACT)
 
 
+def test_bug_masses_that_are_no_doubles_count_exactly_in_momentum_and_energy():
+    """They were rounded to doubles first."""
+    scene = Scene([Body("left", BOX, Velocity(3, 0))], time=(0, 20))
+    bounce = Bounce(masses={"left": "1/3"})
+
+    for one in (bounce, pickle.loads(pickle.dumps(bounce))):
+        assert one.momentum(Simulation(scene)) == (1, 0)
+        assert one.kinetic_energy(Simulation(scene)) == Fraction(3, 2)
+
+
 def test_energy_at_an_irrational_time_needs_constant_velocities():
     falling = Body("falling", BOX, Translation([0, 0], [0, 0, -1]))
     floor = Body("floor", [(-9, -2), (9, -2)])

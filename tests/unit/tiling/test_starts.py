@@ -9,6 +9,7 @@ import pytest
 
 from benchmarks.shapes import crowd
 from exactpt import Body, Scene, Simulation, Translation
+from exactpt.kernel.numbers import QQ
 from exactpt.motion import vertices as moving_vertices
 from exactpt.motion.linear_rows import linear_rows
 from exactpt.pairs.start import initial_touches, near_pairs
@@ -143,6 +144,26 @@ def test_starts_of_bodies_of_doubles(unit, end, monkeypatch):
     exact = arrays_of(crowded(25).bodies, (0, end), unit=unit)
     assert linear_rows(exact.bodies, exact._start, exact._end) is not None
     compared(exact, monkeypatch)
+
+
+def test_bug_starts_at_times_beyond_doubles():
+    """They ended with an OverflowError."""
+    bodies = [Body(f"b{k}", [(9 * k, 0), (9 * k + 1, 0), (9 * k, 1)]) for k in range(25)]
+    scene = Scene(bodies, (10**400, 10**400 + 1))
+
+    assert linear_rows(scene.bodies, scene._start, scene._end) is None
+    assert list(Simulation(scene).run()) == []
+
+
+def test_bug_rounded_positions_that_cancel_give_no_frame():
+    """Paths from about 2^60 to within 2^-22 of the origin: rounded, they seem to be 256 apart."""
+    bodies, far = [], 2.0**60
+    for k in range(25):
+        at = [(128 + s * 2.0**-24, 128 + t * 2.0**-24) for s, t in ((-1, -1), (1, -1), (-1, 1))]
+        to_origin = [far, -far - 128]
+        bodies.append(Body(f"b{k}", at, Translation(to_origin, to_origin)))
+
+    assert linear_rows(bodies, QQ(1), QQ(2)) is None
 
 
 @pytest.mark.parametrize("tiling", ["lazy", "greedy"])
