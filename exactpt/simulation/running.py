@@ -202,14 +202,12 @@ class Run:
     def _answer(self, respond: Response, grid: QQ) -> None:
         """Respond just before a contact; unless something is changed, it takes place."""
         living, driver = self.living, self.driver
-        with self._guarded():
+        with self._guarded():  # all of it: the run cannot go on if the contact was not dealt with
             contact = driver.contact_ahead()
-        ahead = met(contact, living)
-        if self.met is not None and ahead.is_again(self.met):
-            driver.meet()
-            self.contact = contact
-            return
-        with self._guarded():
+            ahead = met(contact, living)
+            if self.met is not None and ahead.is_again(self.met):
+                self.contact = driver.meet()
+                return
             driver.kinetic.retreat(grid)
         self._report(contact)
         self.met = ahead
@@ -220,7 +218,7 @@ class Run:
             self.contact = contact
             with self._guarded():
                 driver.advance(living.scene._end)
-            driver.meet()
+                driver.meet()
 
     def end_record(self) -> None:
         """Record nothing else, see `Simulation.end_proof`."""

@@ -6,7 +6,15 @@ from random import Random
 import pytest
 
 from benchmarks.shapes import clamp
-from exactpt import Body, BudgetExceeded, Scene, Simulation, Translation, first_contact
+from exactpt import (
+    Body,
+    BudgetExceeded,
+    InputError,
+    Scene,
+    Simulation,
+    Translation,
+    first_contact,
+)
 from exactpt.collision.searches import Question, search_for
 from exactpt.errors import ExactPTError
 from exactpt.kernel import budget as kernel_budget
@@ -168,3 +176,20 @@ def test_bug_a_proof_out_of_time_claimed_nothing(method, tmp_path, monkeypatch):
     with pytest.raises(ExactPTError) as spent:
         first_contact(SCENES["rational"], method=method, proof=tmp_path / "p", max_seconds=99)
     assert 0 <= spent.value.reached < 3
+
+
+def ctrl_c(*args, **options):
+    raise KeyboardInterrupt
+
+
+@pytest.mark.plain
+def test_bug_interrupted_before_the_response_to_a_contact_a_run_passed_it(monkeypatch):
+    simulation = Simulation(SCENES["rational"])
+    with monkeypatch.context() as patch:
+        patch.setattr("exactpt.simulation.running.met", ctrl_c)
+        with pytest.raises(KeyboardInterrupt):
+            list(simulation.run(on_contact=lambda *_: None))
+
+    with pytest.raises(InputError, match="it cannot go on"):
+        list(simulation.run())
+    assert simulation.reached() < 3
