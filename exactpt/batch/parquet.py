@@ -59,12 +59,13 @@ class Rows:
         groups = (about.row_group(i) for i in range(about.num_row_groups))
         self.size: int = sum(group.total_byte_size for group in groups)
 
-    def others(self) -> tuple[Any, Iterator[Any]]:
-        """Return the schema of all other columns, and record batches of them."""
-        schema = self._file.schema_arrow
-        names = [name for name in schema.names if name != COLUMN]
-        batches = self._file.iter_batches(AT_A_TIME, columns=names) if names else iter(())
-        return _pyarrow().schema([schema.field(name) for name in names]), batches
+    def others(self) -> tuple[Any, Iterator[list[Any]]]:
+        """Return the schema of all other columns, and batches of them; two may have one name."""
+        fields = list(self._file.schema_arrow)
+        kept = [k for k, field in enumerate(fields) if field.name != COLUMN]
+        batches = self._file.iter_batches(AT_A_TIME) if kept else iter(())
+        columns = ([batch.column(k) for k in kept] for batch in batches)
+        return _pyarrow().schema([fields[k] for k in kept]), columns
 
     def chunks(self, done: Mapping[int, Record], most: int) -> Iterator[Chunk]:
         """See `Source`."""
@@ -152,7 +153,7 @@ def table(
             )
             if len(own):
                 while len(left) < len(found):
-                    more = arrow.Table.from_arrays(next(batches).columns, schema=own)
+                    more = arrow.Table.from_arrays(next(batches), schema=own)
                     left = arrow.concat_tables([left, more])
                 theirs, left = left.slice(0, len(found)), left.slice(len(found))
                 found = arrow.Table.from_arrays([*found.columns, *theirs.columns], schema=whole)

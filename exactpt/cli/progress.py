@@ -59,9 +59,7 @@ def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, in
     if quiet:
         yield lambda _done, _whole: None
         return
-    first: list[
-        tuple[float, int]
-    ] = []  # the time of the first call, and the amount done by that time
+    first: list[tuple[float, int]] = []  # the time of the first call, and what was done by then
 
     def rest(done: int, whole: int) -> str:
         now = clock.monotonic()
@@ -74,8 +72,9 @@ def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, in
 
     if is_terminal():
         with click.progressbar(
-            length=1, label=label, file=sys.stderr, show_eta=False, item_show_func=str
-        ) as bar:
+            length=1, label=label, file=sys.stderr, show_eta=False,
+            item_show_func=lambda left: str(left or ""),
+        ) as bar:  # fmt: skip
 
             def move(done: int, whole: int) -> None:
                 bar.length = whole

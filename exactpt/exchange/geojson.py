@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import inf
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from exactpt.errors import InputError
@@ -31,7 +32,7 @@ TYPES: Final = {
 }
 """Possible values of the key "type" of a GeoJSON object."""
 LONGEST: Final = 4000
-"""Number of digits from which on an integer is read as a double, as Python reads no longer ones."""
+"""Number of digits from which on an integer stays a text, as Python reads no longer ones."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
 
@@ -96,15 +97,24 @@ def properties_of(feature: dict[str, Json]) -> dict[str, object] | None:
 def _plain(data: Json) -> object:
     if isinstance(data, Number):
         digits = data.removeprefix("-")
-        return int(data) if digits.isdigit() and len(digits) < LONGEST else float(data)
+        number = int(data) if digits.isdigit() and len(digits) < LONGEST else float(data)
+        return str(data) if number in (inf, -inf) else number
     if isinstance(data, dict):
         return {key: _plain(value) for key, value in data.items()}
     return [_plain(value) for value in data] if isinstance(data, list) else data
 
 
 def named(name: str, properties: Mapping[str, object] | None) -> dict[str, object]:
-    """Return the properties to write for a body: they name it as `shapes_of` names it."""
+    """Return the properties to write for a body: they name it as `shapes_of` names it.
+
+    Raises:
+        InputError: if JSON has no such data.
+    """
     found = dict(properties or {})
+    try:
+        json.dumps(found, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"body {shorten(name)}: properties: {error}") from None
     if name_of({"properties": found}) == name:  # type: ignore[dict-item]
         return found
     return {"name": name, **{key: v for key, v in found.items() if key != "name"}}

@@ -42,6 +42,10 @@ _SHARP: Final = QQ(0)
 _NO_HOLES: Final = ()
 
 
+def _has_texts(properties: object) -> bool:
+    return isinstance(properties, Mapping) and all(isinstance(key, str) for key in properties)
+
+
 def is_text(name: object) -> bool:
     """Return True if it is a nonempty string that can be encoded: without unpaired surrogates."""
     try:
@@ -128,6 +132,8 @@ class Body:
         self.closed = closed
         self._radius = _read_radius(name, radius)
         self._parts: Parts | None = None
+        if properties is not None and not _has_texts(properties):
+            raise InputError(f"body {shorten(name)}: properties: not a mapping of texts to data")
         self._properties = dict(properties) if properties else None
         try:
             if plain:

@@ -148,3 +148,15 @@ def test_what_is_no_table_of_scenes_is_refused(tmp_path, kind):
     with pytest.raises(InputError, match=r"scenes.parquet: "):
         run(path, tmp_path / "answers.jsonl")
     assert [p.name for p in tmp_path.iterdir()] == ["scenes.parquet"]
+
+
+def test_two_columns_of_one_name_pass_through(tmp_path):
+    path, out = tmp_path / "scenes.parquet", tmp_path / "answers.parquet"
+    columns = [arrow.array(["null"]), arrow.array([1]), arrow.array([2])]
+    parquet.write_table(arrow.Table.from_arrays(columns, ["scene", "a", "a"]), path)
+
+    run(path, out)
+
+    found = parquet.ParquetFile(out).read()
+    assert [field.name for field in found.schema][-3:] == ["answer", "a", "a"]
+    assert [column.to_pylist() for column in found.columns[-2:]] == [[1], [2]]

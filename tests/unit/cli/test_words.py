@@ -108,5 +108,6 @@ def test_a_bar_with_an_estimate_on_a_terminal(monkeypatch):
 
     assert "answering" in screen.getvalue()
     assert "25%  about 15 s left" in screen.getvalue()
+    assert "None" not in screen.getvalue()
     with estimating("answering", quiet=True) as silent:
         silent(1, 2)

@@ -1,6 +1,7 @@
 """Properties of features, answers as features, dates, and shapes at irrational times."""
 
 import json
+import math
 import pickle
 from datetime import UTC, datetime, timedelta, timezone
 from fractions import Fraction
@@ -145,3 +146,33 @@ def test_shapes_at_an_irrational_time(tmp_path):
         scene.to_shapely(exactpt.AlgebraicNumber.root([-82, 0, 1], 9, 10))
     with pytest.raises(InputError, match="outside the time span"):
         scene.to_shapely(Fraction(10))
+
+
+def test_a_number_beyond_doubles_stays_a_text(tmp_path):
+    path, copy = tmp_path / "a.geojson", tmp_path / "b.geojson"
+    long = "9" * 5000
+    path.write_text(json.dumps(feature({"name": "a", "x": 0})).replace("0}", f"[-1e400, {long}]}}"))
+
+    exactpt.write_shapes(exactpt.read_shapes(path), copy)
+
+    assert exactpt.read_shapes(copy).bodies[0].properties == {"name": "a", "x": ["-1e400", long]}
+
+
+@pytest.mark.parametrize("value", [math.inf, {1, 2}, object()])
+def test_properties_that_json_does_not_have(tmp_path, value):
+    for name in ("a.geojson", "a.mfjson"):
+        with pytest.raises(InputError, match=r"^body 'a': properties: [^\n]+$"):
+            exactpt.write_shapes(
+                Scene([Body("a", [(0, 0)], properties={"x": value})]), tmp_path / name
+            )
+
+
+@pytest.mark.parametrize("properties", [5, [("x", 1)], {1: 2}])
+def test_properties_that_are_not_a_mapping_of_texts(properties):
+    with pytest.raises(InputError, match=r"^body 'a': properties: not a mapping of texts to data$"):
+        Body("a", [(0, 0)], properties=properties)
+
+
+def test_a_time_that_is_not_a_span(tmp_path):
+    with pytest.raises(InputError, match=r"^time: not a list: 5$"):
+        exactpt.read_shapes(tmp_path / "a.geojson", time=5)
