@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Final
@@ -115,7 +116,8 @@ def _write_gif(images: Iterable[Any], some: Sequence[Any], path: Path, fps: int)
         together.paste(image, (0, k * height))
     colours = together.quantize(COLOURS)
     flat = [image.quantize(palette=colours, dither=Image.Dither.NONE) for image in images]
-    rest = [1000 / fps] * (len(flat) - 1) + [1000 * REST]
+    ends = [round(100 / fps * k) for k in range(len(flat))]  # a GIF counts hundredths of a second
+    rest = [10 * (end - start) for start, end in pairwise(ends)] + [1000 * REST]
     flat[0].save(path, save_all=True, append_images=flat[1:], duration=rest, loop=0, disposal=1)
 
 

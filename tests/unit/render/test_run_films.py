@@ -99,6 +99,23 @@ def test_a_film_as_a_file(tmp_path, ending, start):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("fps", [20, 30, 60])
+def test_bug_a_gif_of_30_frames_in_a_second_was_shorter_than_its_seconds(tmp_path, fps):
+    """Every frame had the same number of hundredths of a second, rounded down."""
+    pil = pytest.importorskip("PIL.Image")
+    images = [pil.new("RGB", (8, 8), (k, 255 - k, 0)) for k in range(fps + 1)]
+
+    movie._write_gif(images, images, tmp_path / "film.gif", fps)
+
+    with pil.open(tmp_path / "film.gif") as film:
+        shown = []
+        for k in range(film.n_frames):
+            film.seek(k)
+            shown.append(film.info["duration"])
+    assert sum(shown) == 2000
+    assert max(shown[:-1]) - min(shown[:-1]) <= 10
+
+
 @pytest.mark.parametrize("options", [{"seconds": 0}, {"fps": 0}, {"seconds": 10**5}])
 def test_films_without_frames_are_refused(tmp_path, options):
     with pytest.raises(InputError, match="a film has from 1 to 100000 frames"):
