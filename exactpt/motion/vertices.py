@@ -44,7 +44,7 @@ HORIZON: Final[i64] = 4
 MOTION: Final[i64] = 5
 """Place of the number of the motion among them, see `Image.motion`."""
 OTHER_MOTION: Final[float] = -2.0
-"""Number of the motion of all vertices that `Vertices.places` does not describe."""
+"""Number of the motion of all vertices that `Vertices.places` does not describe alone."""
 UNUSED: Final[list[float]] = [0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0]
 """The doubles of a vertex that no body has."""
 
@@ -70,8 +70,8 @@ class Vertices:
         enclosures: the enclosures of the trajectories.
         places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`,
             `Vertex.horizon` and the number of the motion. The latter is `OTHER_MOTION` unless the
-            vertex is in linear translation, without infinitesimal copies; then the others are
-            not valid. An addition of a body may move the vector.
+            vertex is in linear translation, without infinitesimal copies; the other coefficients
+            of `Image` are then 0. An addition of a body may move the vector.
         changes: how often trajectories have changed, or bodies been added or removed.
     """
 

@@ -13,9 +13,6 @@ from exactpt.render.words import clean, short
 if TYPE_CHECKING:
     from exactpt.render.frame import Frame, Line, Mark, Pixel, Shape, Tile
 
-THEMES: Final = ("auto", "light", "dark")
-"""Names of the themes; ``auto`` follows the reader's preference."""
-
 _HEADER: Final = 60
 _COLUMN: Final = 190
 """Width of a legend."""
