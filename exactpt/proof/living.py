@@ -83,9 +83,13 @@ class ProofFolder(Observer):
     def change(self, t: QQ) -> None:
         """See `Observer.change`."""
         part, self._part = self._part, None
-        if part is not None and t > self._scene._start:
+        if part is None:
+            return
+        if t > self._scene._start:
             part.none(t)
             self._keep(t)
+        else:
+            self._file.close()
 
     def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
         """See `Observer.met`."""

@@ -249,3 +249,16 @@ def test_a_proof_is_the_same_in_every_process():
         for seed in ("1", "2", "3")
     }
     assert len(proofs) == 1
+
+
+def test_bug_a_part_that_lasts_no_time_left_its_file_open(tmp_path):
+    bodies = [exactpt.Body("a", [(0, 0)]), exactpt.Body("b", [(5, 0)])]
+    simulation = exactpt.Simulation(exactpt.Scene(bodies, time=(0, 6)), proof=tmp_path / "run")
+    (folder,) = simulation._run.driver.observers
+
+    list(simulation.run(0))
+    file = folder._file
+    simulation.set_motions({"a": exactpt.Velocity(0, 1)})
+
+    assert file.closed
+    assert list((tmp_path / "run").glob("*.proof")) == []
