@@ -731,7 +731,7 @@ class Checker:
 
 def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Proved:
     """Check a certificate; return its statement. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
-    digits, line, checker = sys.get_int_max_str_digits(), 0, None
+    digits, line, checker, many = sys.get_int_max_str_digits(), 0, None, False
     sys.set_int_max_str_digits(0)  # lengths have bounds of their own
     WORK.start(work, len(scene_file) + len(certificate))
     try:
@@ -758,7 +758,8 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
     except UnicodeDecodeError:
         raise NoProofError("a file is not UTF-8") from None
     except Rejected as why:
-        raise Rejected(f"rejected: line {checker.line if checker else line}: {why}") from None
+        where = "" if many else f"line {checker.line if checker else line}: "
+        raise Rejected(f"rejected: {where}{why}") from None
     finally:
         sys.set_int_max_str_digits(digits)
         WORK.left = Work.usual
@@ -777,7 +778,10 @@ def check_rows(scenes: list[str], rows: list[str]) -> Proved:
             continue
         try:
             lines = read(f"exactpt-apart 1\nscene sha256 -\n{row.replace(';', chr(10))}".encode())
-            proved = Checker(made, lines).run()
+            checker = Checker(made, lines)
+            require(not checker.distance, "a distance: a row is about contacts")
+            require(len(made.bodies) > 1, "fewer than two bodies")
+            proved = checker.run()
         except Rejected as why:
             raise Rejected(f"row {k}: {why}") from None
         require(proved.whole, f"row {k}: only a part is proved: {proved}")

@@ -253,6 +253,8 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
   const char* kinds[] = {"no contact", "first contact", "contact at the start", "open"};
   std::size_t found[4] = {};
   for (std::size_t k = 0; k < scenes.size(); ++k) {
+    if (k > 0 && scenes[k].compare(0, 3, "\xef\xbb\xbf") == 0)
+      throw NoProof("a byte order mark that is not the beginning of the file");
     const Scene scene(scenes[k]);
     std::string& row = rows[k + 2];
     if (row == "open") {
@@ -263,6 +265,8 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
     const ApartText text = parse_certificate("exactpt-apart 1\nscene sha256 -\n" + row);
     const std::string where = "row " + std::to_string(k + 1) + ": ";
     try {
+      if (text.distance != 0) throw Rejected("a distance: a row is about contacts");
+      if (scene.bodies().size() < 2) throw Rejected("fewer than two bodies");
       const Statement one = check_apart(scene, text);
       if (!one.is_whole) throw Rejected("only a part is proved: " + one.text);
       const std::string first = one.text.substr(0, one.text.find(' '));
