@@ -128,6 +128,7 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
         InputError: if the time is irrational, and the velocity is not constant there.
     """
     if isinstance(t, AlgebraicNumber):
+        t = t.simplified()
         passed = [b for b in body._breakpoints if t.compare_rational(b) >= 0]
         near = t._low if t.is_rational or not passed else passed[-1]
         if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):

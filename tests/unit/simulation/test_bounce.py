@@ -275,6 +275,17 @@ def test_bug_masses_that_are_no_doubles_count_exactly_in_momentum_and_energy():
         assert one.kinetic_energy(Simulation(scene)) == Fraction(3, 2)
 
 
+def test_bug_an_event_time_of_degree_three_that_is_rational_counts_as_rational():
+    """It was refused as irrational, as it had not been recognised yet."""
+    rising = Body("rising", [(0, 0)], Translation([0], [0, -1, 0, 1]))
+    others = [Body("left", [(-5, "80/27")]), Body("right", [(5, "80/27")])]
+    simulation = Simulation(Scene([rising, *others], time=(0, 2)))
+    simulation.step()
+
+    assert Bounce().momentum(simulation) == (0, Fraction(22, 3))
+    assert simulation.now == Fraction(5, 3)
+
+
 def test_energy_at_an_irrational_time_needs_constant_velocities():
     falling = Body("falling", BOX, Translation([0, 0], [0, 0, -1]))
     floor = Body("floor", [(-9, -2), (9, -2)])
