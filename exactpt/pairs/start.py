@@ -79,6 +79,7 @@ def initial_touches(
     return sorted(touches), sorted(pairs)
 
 
+@np.errstate(all="ignore")
 def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
     """Return the pairs i < j of bodies whose boxes intersect at a time; None if too many.
 

@@ -8,7 +8,7 @@ import click
 import pytest
 from folding import every
 
-from exactpt import Scene, Simulation
+from exactpt import Scene, Simulation, first_contact
 from exactpt.cli import all_commands, cli, main
 
 QUESTION = (
@@ -74,6 +74,8 @@ def test_an_example_runs(line, tmp_path, monkeypatch, request):
     (tmp_path / "scene.json").write_text(scene)
     if line == "exactpt check folder":
         list(Simulation(Scene.load("scene.json"), proof=tmp_path / "folder").run())
+    if line == "exactpt check answer.apart":
+        first_contact(Scene.load("scene.json"), certificate=tmp_path / "answer.apart")
 
     with pytest.raises(SystemExit) as left:
         main(shlex.split(line)[1:])

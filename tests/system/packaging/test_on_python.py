@@ -9,7 +9,7 @@ import pytest
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a script for Debian")
 
-USAGE = "usage: .ci/on-python RELEASE [TARGET...] [PYTHON=python3.N]\n"
+USAGE = "usage: .ci/on-python RELEASE [TARGET...] [PYTHON=python3.N] [JOBS=N]\n"
 NEEDS = ".ci/on-python needs root and debootstrap (apt-get install debootstrap)\n"
 
 
