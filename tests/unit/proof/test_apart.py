@@ -486,17 +486,17 @@ def row_files(scenes, row):
 
 PAIR = [{"name": "a", "vertices": [[0, 0]]}, {"name": "b", "vertices": [[3, 4]]}]
 WRONG_ROWS = [  # bodies that never touch are not "in contact", however near a distance makes them
-    ([scene_file(*PAIR)], "span 0 0;distance 5;meet 0 0 1", 1, "a distance"),
-    ([scene_file(*PAIR)], "span 0 8;distance 1;c 1 0 1;none", 1, "a distance"),
-    ([scene_file(PAIR[0])], "span 0 8;none", 1, "fewer than two bodies"),
-    ([scene_file(*PAIR), b"\xef\xbb\xbf" + scene_file(*PAIR)], "open", 2, ""),
+    ([scene_file(*PAIR)], "span 0 0;distance 5;meet 0 0 1", 1),
+    ([scene_file(*PAIR)], "span 0 8;distance 1;c 1 0 1;none", 1),
+    ([scene_file(PAIR[0])], "span 0 8;none", 1),
+    ([scene_file(*PAIR), b"\xef\xbb\xbf" + scene_file(*PAIR)], "open", 2),
 ]
 
 
 def test_rows_with_a_distance_or_one_body_are_refused():
-    for scenes, row, code, why in WRONG_ROWS:
+    for scenes, row, code in WRONG_ROWS:
         error = check_apart.Rejected if code == 1 else check_apart.NoProofError
-        start = f"^rejected: row 1: {why}" if why else "BOM"
+        start = "^rejected: row 1: no contacts of two bodies" if code == 1 else "BOM"
         with pytest.raises(error, match=start):
             check_apart.check(*row_files(scenes, row))
     scene, rows = row_files([scene_file(*PAIR)], "span 0 8;distance 0;c 1 0 1;none")
@@ -505,13 +505,13 @@ def test_rows_with_a_distance_or_one_body_are_refused():
 
 @pytest.mark.cgal
 def test_wrong_rows_in_cpp(program, tmp_path):
-    for scenes, row, code, why in WRONG_ROWS:
+    for scenes, row, code in WRONG_ROWS:
         for name, part in zip("sr", row_files(scenes, row), strict=True):
             (tmp_path / name).write_bytes(part)
         command = [program, "proof", tmp_path / "s", tmp_path / "r"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode == code
-        assert done.stdout.startswith(f"rejected: row 1: {why}" if code == 1 else "")
+        assert done.stdout.startswith("rejected: row 1: no contacts" if code == 1 else "")
 
 
 @pytest.mark.cgal
