@@ -220,7 +220,7 @@ def _radii(values: ArrayLike, n: int) -> Floats:
         raise InputError(f"radii: a number or {n} of them are needed, not {radii.shape}")
     at = first_true(radii < 0)
     if at is not None:
-        raise InputError(f"radii{list(at)}: it is negative: {radii[at]}")
+        raise InputError(f"radii{list(at) if at else ''}: it is negative: {radii[at]}")
     return np.broadcast_to(radii.copy(), (n,))
 
 

@@ -198,7 +198,7 @@ def check_subject(
 
     The arguments are those of `check`.
     """
-    for what, given in (("toi", toi), ("accept", accept or callable)):
+    for what, given in (("toi", toi), ("accept", callable if accept is None else accept)):
         if not callable(given):
             raise InputError(f"{what}: not a function: {shorten(given)}")
     number: object = cases

@@ -42,6 +42,8 @@ def test_answers_are_those_of_first_contact():
 def test_a_negative_radius():
     with pytest.raises(InputError, match=r"radii\[1\]: it is negative"):
         arrays.first_contacts([(0, 0), (5, 0)], [0, 1, 2], [(0, 1)], radii=[1.0, -1.0])
+    with pytest.raises(InputError, match=r"^radii: it is negative: -1.0$"):
+        arrays.first_contacts([(0, 0), (5, 0)], [0, 1, 2], [(0, 1)], radii=-1)
 
 
 SHAPES = [
