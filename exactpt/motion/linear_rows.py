@@ -79,6 +79,7 @@ class _Arrays(Sequence["Body"]):
     radii: Floats
 
 
+@np.errstate(all="ignore")
 def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None:
     """Return the rows of bodies from a time on; None unless all are linear polygons."""
     given = _from_arrays(cast("_Arrays", bodies)) if hasattr(bodies, "offsets") else _read(bodies)
@@ -87,14 +88,13 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     counts = np.diff(given.offsets)
     owner, number = spread(counts)
     shifts = given.shifts[owner]
-    with np.errstate(all="ignore"):
-        places = given.vertices + shifts
-        of_shift = places - given.vertices
-        lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
-        moves = given.velocities[owner] * nearest_float(start)
-        near = places + moves
-        # Each of the two terms errs by at most 2 U of its size, their sum by U of that of both.
-        blur = 4.0 * U * (np.abs(places).max() + np.abs(moves).max())
+    places = given.vertices + shifts
+    of_shift = places - given.vertices
+    lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
+    moves = given.velocities[owner] * nearest_float(start)
+    near = places + moves
+    # Each of the two terms errs by at most 2 U of its size, their sum by U of that of both.
+    blur = 4.0 * U * (np.abs(places).max() + np.abs(moves).max())
     if not (np.isfinite(near).all() and np.isfinite(lost).all()):
         return None
     frame = _frame(near, start, end, 0.0 if start == 0 and not lost.any() else float(blur))
@@ -201,8 +201,7 @@ def _turns(vertices: Floats, offsets: Indices, owner: Indices) -> Indices:
     first, last = offsets[:-1], offsets[1:] - 1
     at = np.lexsort((y, x, owner))[first]
     before, after = np.where(at == first, last, at - 1), np.where(at == last, first, at + 1)
-    with np.errstate(all="ignore"):
-        (ux, uy), (vx, vy) = (vertices[at] - vertices[before]).T, (vertices[after] - vertices[at]).T
-        p, q = ux * vy, uy * vx
-        det, bound = p - q, K * (abs(p) + abs(q)) + TINY
+    (ux, uy), (vx, vy) = (vertices[at] - vertices[before]).T, (vertices[after] - vertices[at]).T
+    p, q = ux * vy, uy * vx
+    det, bound = p - q, K * (abs(p) + abs(q)) + TINY
     return np.where(det > bound, 1, np.where(det < -bound, -1, 0))

@@ -1,5 +1,6 @@
 """Starts in arrays: the same tilings, certificates and counts as one by one."""
 
+import warnings
 from fractions import Fraction
 from itertools import islice
 from random import Random
@@ -153,6 +154,18 @@ def test_bug_starts_at_times_beyond_doubles():
 
     assert linear_rows(scene.bodies, scene._start, scene._end) is None
     assert list(Simulation(scene).run()) == []
+
+
+@pytest.mark.parametrize("size, speed, start", [(1.0, 1e300, 0), (1e306, 1.0, 1)])
+def test_bug_starts_of_extreme_bodies_gave_warnings(size, speed, start):
+    motion = Translation([0], [0, speed])
+    places = [(k * size, (k + 0.5) * size) for k in range(25)]
+    bodies = [Body(f"b{k}", [(x, 0), (y, 0), (x, size)], motion) for k, (x, y) in enumerate(places)]
+    scene = Scene(bodies, (start, 2**300))
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        linear_rows(scene.bodies, scene._start, scene._end)
 
 
 def test_bug_rounded_positions_that_cancel_give_no_frame():
