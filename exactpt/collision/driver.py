@@ -49,7 +49,7 @@ class Observer:
     listens_to: int = TIMES
 
     def touching(self, scene: Scene) -> None:
-        """Bodies touch at the start; no other method is called."""
+        """Bodies touch at the start; no other method but `finish` is called."""
 
     def before(self, scene: Scene, tiling: Tiling) -> None:
         """Time is about to pass; the scene is that since the last change of motions."""
