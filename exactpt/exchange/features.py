@@ -11,6 +11,7 @@ from exactpt.exchange.instants import to_datetime
 from exactpt.exchange.shapes import shape_at
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
+from exactpt.motion.shape import listed
 from exactpt.pairs.clearance import CloseInterval
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.intervals import ContactInterval
@@ -57,7 +58,7 @@ def to_features(
             properties |= {f"{side}_{key}": value for key, value in own.items()}
         features.append({"type": "Feature", "properties": properties, "geometry": shown})
 
-    for answer in answers:
+    for answer in listed("answers", answers):
         if isinstance(answer, (ContactInterval, CloseInterval)):
             shape = shape_at(scene.body(answer.a if geometry == "a" else answer.b), answer.start)
             times = {"start": written(answer.start), "end": written(answer.end)}

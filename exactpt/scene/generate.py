@@ -64,7 +64,6 @@ def families(*kinds: str) -> dict[str, Family]:
 
 
 CONVEX: Final = families("convex")
-SIMPLE: Final = families("simple")
 FAMILIES: Final = families("convex", "simple")
 POINTS: Final = families("points")
 ROUNDED: Final = families("rounded")

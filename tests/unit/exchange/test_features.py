@@ -176,3 +176,9 @@ def test_properties_that_are_not_a_mapping_of_texts(properties):
 def test_a_time_that_is_not_a_span(tmp_path):
     with pytest.raises(InputError, match=r"^time: not a list: 5$"):
         exactpt.read_shapes(tmp_path / "a.geojson", time=5)
+
+
+def test_one_contact_is_not_a_list_of_answers():
+    scene = Scene([Body("a", [(0, 0)]), Body("b", [(0, 0)])])
+    with pytest.raises(InputError, match=r"^answers: not a list: [^\n]+$"):
+        exactpt.to_features(scene, exactpt.first_contact(scene))
