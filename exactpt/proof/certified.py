@@ -13,7 +13,7 @@ import numpy as np
 
 from exactpt.check_apart import WORK, Rejected, are_near, require_passage, surrounds
 from exactpt.collision.detector import first_contact
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pairs.approach import Approach, first_within
@@ -69,10 +69,11 @@ def certify(
 
     Raises:
         InputError: if the scene is none, there is no such body or time, no pair counts, a
-            coordinate has a degree above 64, bodies are not farther apart than the distance
-            at the time, or the first contact is one of a body with itself.
-        BudgetExceeded: if bodies come too near to each other before the contact, or it is a touch
-            without crossing at an irrational time.
+            coordinate has a degree above 64, a body is inside another one at the time, or the
+            first contact is one of a body with itself.
+        BudgetExceeded: if bodies come too near to each other before the contact, or are not
+            farther apart than the distance at the time, or the contact is a touch without
+            crossing at an irrational time.
     """
     a_scene(scene)
     groups = ignoring if isinstance(ignoring, str) else list(ignoring)
@@ -99,7 +100,13 @@ def certify(
             contact = first_contact(part, between=named, ignoring=groups)
     file = scene_bytes(scene)
     made = _Certificate(part, file, Selection(scene, named, groups), fraction(d))
-    return Proof(contact, file, made.text(contact or approach, *span))
+    proof = Proof(contact, file, made.text(contact or approach, *span))
+    if at is not None:  # no search has seen whether a body is inside another one
+        try:
+            proof.check()
+        except AuditError:
+            raise InputError(f"a body is inside another one at t = {at}") from None
+    return proof
 
 
 def certificate_of(scene: Scene, contact: Contact | None, file: bytes | None = None) -> Proof:

@@ -477,6 +477,15 @@ def test_rows_of_arrays():
         check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
 
 
+def test_a_body_inside_another_one_at_a_time_has_no_certificate():
+    inner = Body("inner", [(4, 3), (5, 3), (4, 4)], Translation([0, 1]))
+    scene = Scene([Body("outer", [(0, 0), (9, 0), (9, 9), (0, 9)]), inner], time=(0, 20))
+    for distance in (0, "1/2"):
+        with pytest.raises(InputError, match="inside another one at t = 1"):
+            exactpt.certify(scene, at=1, distance=distance)
+    assert said(exactpt.certify(scene, at=8)).startswith("no two bodies share a point at t = 8")
+
+
 def row_files(scenes, row):
     """A scene file with a scene on each line, and a file with this row for each."""
     scene = b"".join(scene + b"\n" for scene in scenes)
