@@ -232,7 +232,7 @@ class Separation:
                 continue
             body, several = self._largest(items)
             start, end = frame.time.start, frame.time.end
-            is_short = (end - start) * 64 < self._span
+            is_short = start == end or (end - start) * 64 < self._span
             if len(several) > 1 and (depth % 2 or is_short):
                 middle = int(several[len(several) // 2])
                 yield f"s {body} {middle}"

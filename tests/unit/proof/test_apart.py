@@ -477,6 +477,14 @@ def test_rows_of_arrays():
         check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
 
 
+def test_a_body_within_a_chain_at_a_time():
+    """No line is clear of all edges: at one time, too, a body is split."""
+    chain = Body("chain", [(0, 0), (9, 0), (9, 9), (0, 9), (0, "1/9")], closed=False)
+    scene = Scene([chain, Body("inner", [(3, 4), (4, 4), (3, 5)])], time=(0, 20))
+    for distance in (0, "1/2", 2):
+        assert said(exactpt.certify(scene, at=1, distance=distance)).startswith("no two bodies")
+
+
 def test_a_body_inside_another_one_at_a_time_has_no_certificate():
     inner = Body("inner", [(4, 3), (5, 3), (4, 4)], Translation([0, 1]))
     scene = Scene([Body("outer", [(0, 0), (9, 0), (9, 9), (0, 9)]), inner], time=(0, 20))
