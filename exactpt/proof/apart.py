@@ -7,7 +7,7 @@ else the checker's own exact test decides. So the nodes are those that the check
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
 from math import frexp
@@ -184,6 +184,7 @@ class Separation:
         groups: a number for each body; bodies with equal ones do not count as a pair.
         counts: whether two of some bodies are a pair that counts.
         distance: a number below the distances to be certified.
+        counted: the pairs of bodies that count, if they are named.
     """
 
     def __init__(
@@ -193,8 +194,10 @@ class Separation:
         groups: Sequence[int],
         counts: Callable[[set[int]], bool],
         distance: Fraction,
+        counted: Collection[tuple[int, int]] | None = None,
     ) -> None:
         self._paths, self._counts, self._distance = paths, counts, distance
+        self._counted = counted
         self._radii = [body.radius for body in bodies]
         self._body = np.array([i for i, _, _ in paths.items], dtype=np.intp)
         self._group = np.array(groups, dtype=np.intp)[self._body]
@@ -216,9 +219,13 @@ class Separation:
         ]
         while todo:
             items, time, depth = todo.pop()
-            if not len(items) or not self._counts(set(self._body[items].tolist())):
+            present = set(self._body[items].tolist())
+            if not len(items) or not self._counts(present):
                 continue
             ask()
+            if self._counted:  # the others do not matter in this node, nor in any below it
+                here = [pair for pair in self._counted if {*pair} <= present]
+                items = items[np.isin(self._body[items], np.ravel(here))]
             frame = time if isinstance(time, Frame) else Frame(self._paths, items, *time)
             self.nodes += 1
             if self.nodes > most:

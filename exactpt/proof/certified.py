@@ -210,7 +210,7 @@ class _Certificate:
             groups, named = self._selection.group, self._selection.named
             several = groups if named is None else range(len(groups))
             separation = Separation(
-                self._paths, self._bodies, several, self._counts, self._distance
+                self._paths, self._bodies, several, self._counts, self._distance, named
             )
             head += separation.lines(start, until)
         return "".join(f"{line}\n" for line in [*head, *last]).encode()

@@ -477,6 +477,14 @@ def test_rows_of_arrays():
         check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
 
 
+def test_bodies_that_count_with_no_other_one_are_left_out():
+    """Bodies c and d overlap, and do not count: no line is clear of them."""
+    shapes = [[(0, 0)], moved(BOX, 4, 0), [(1, -9), (9, -9), (9, 9), (1, 9)], moved(BOX, 2, 0)]
+    scene = Scene([Body(k, v) for k, v in zip("abcd", shapes, strict=True)], time=(0, 3))
+    made = exactpt.certify(scene, between=[("a", "b"), ("a", "d")])
+    assert said(made).startswith("no two bodies share a point in [0, 3], the whole span")
+
+
 def test_a_body_within_a_chain_at_a_time():
     """No line is clear of all edges: at one time, too, a body is split."""
     chain = Body("chain", [(0, 0), (9, 0), (9, 9), (0, 9), (0, "1/9")], closed=False)
