@@ -478,10 +478,13 @@ def test_rows_of_arrays():
 
 
 def test_bodies_that_count_with_no_other_one_are_left_out():
-    """Bodies c and d overlap, and do not count: no line is clear of them."""
-    shapes = [[(0, 0)], moved(BOX, 4, 0), [(1, -9), (9, -9), (9, 9), (1, 9)], moved(BOX, 2, 0)]
-    scene = Scene([Body(k, v) for k, v in zip("abcd", shapes, strict=True)], time=(0, 3))
-    made = exactpt.certify(scene, between=[("a", "b"), ("a", "d")])
+    """The body c overlaps b, and counts with none: no line is clear of both."""
+    square = [(-7, 4), (-1, 4), (-1, 10), (-7, 10)]
+    shapes = [square, moved(BOX, 3, -1), [(-1, -8), (5, -8), (5, -2), (-1, -2)], [(1, -1)]]
+    steps = [(-1, 0), (-1, 0), (1, 1), (-1, 0)]
+    motions = [Translation([0, x], [0, y]) for x, y in steps]
+    scene = Scene([Body(*row) for row in zip("abcd", shapes, motions, strict=True)], time=(0, 3))
+    made = exactpt.certify(scene, between=[("d", "b"), ("d", "a")])
     assert said(made).startswith("no two bodies share a point in [0, 3], the whole span")
 
 
