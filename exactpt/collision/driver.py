@@ -197,7 +197,7 @@ class Driver:
 
         Raises:
             BudgetExceeded: if the budget is exceeded; its ``reached`` is a time up to which there
-                is not a contact.
+                is no contact.
         """
         level = max((observer.listens_to for observer in self.observers), default=NOTHING)
         if self.budget.limits_events:
