@@ -157,7 +157,7 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
             start, length = begin[alone] * until[some], width * until[some]
             slope = n * (fall - 2.0 * e)[alone] / length
             zero, error = _zero([(c[some], e[some]) for c, e in fs], start, start + length, slope)
-            # fmax and fmin take the other number instead of a NaN, which is no bound.
+            # fmax and fmin take the other number instead of a NaN, which bounds nothing.
             np.minimum.at(low, some, np.fmax(zero - error, start * (1.0 - 4.0 * U)))
             np.fmin.at(high, some, zero + error)
         b, row, begin = b[:, ~alone], row[~alone], begin[~alone]

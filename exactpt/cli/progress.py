@@ -59,7 +59,7 @@ def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, in
     if quiet:
         yield lambda _done, _whole: None
         return
-    first: list[tuple[float, int]] = []  # the time of the first call, and what was done by then
+    first: list[tuple[float, int]] = []  # the time of the first call, and the finished part
 
     def rest(done: int, whole: int) -> str:
         now = clock.monotonic()

@@ -69,7 +69,7 @@ def certify(
 
     Raises:
         InputError: if the scene is none, there is no such body or time, no pair counts, a
-            coordinate has a degree above 64, a body is inside another one at the time, or the
+            coordinate has a degree above 64, a body is inside another body at that time, or the
             first contact is one of a body with itself.
         BudgetExceeded: if bodies come too near to each other before the contact, or are not
             farther apart than the distance at the time, or the contact is a touch without
@@ -101,11 +101,11 @@ def certify(
     file = scene_bytes(scene)
     made = _Certificate(part, file, Selection(scene, named, groups), fraction(d))
     proof = Proof(contact, file, made.text(contact or approach, *span))
-    if at is not None:  # no search has seen whether a body is inside another one
+    if at is not None:  # no search has seen whether a body is inside another
         try:
             proof.check()
         except AuditError:
-            raise InputError(f"a body is inside another one at t = {at}") from None
+            raise InputError(f"a body is inside another body at t = {at}") from None
     return proof
 
 

@@ -167,13 +167,9 @@ def test_a_point_passes_through_a_segment_at_an_irrational_time():
     assert high - low <= Fraction(5, 2**20)
 
 
-@pytest.mark.parametrize("family", ["turning", "keyframed", "stars", "lakes", "spinning", "convoy"])
+@pytest.mark.parametrize("family", ["turning", "keyframed", "stars", "lakes", "gears", "convoy"])
 def test_families(family):
-    try:
-        scene = generate(family, 2)
-    except KeyError:
-        pytest.skip("no such family")
-    assert exactpt.certify(scene).check().startswith("accepted: ")
+    assert exactpt.certify(generate(family, 2)).check().startswith("accepted: ")
 
 
 def test_first_contact_and_the_command_write_it(tmp_path):
@@ -500,7 +496,7 @@ def test_a_body_inside_another_one_at_a_time_has_no_certificate():
     inner = Body("inner", [(4, 3), (5, 3), (4, 4)], Translation([0, 1]))
     scene = Scene([Body("outer", [(0, 0), (9, 0), (9, 9), (0, 9)]), inner], time=(0, 20))
     for distance in (0, "1/2"):
-        with pytest.raises(InputError, match="inside another one at t = 1"):
+        with pytest.raises(InputError, match="inside another body at t = 1"):
             exactpt.certify(scene, at=1, distance=distance)
     assert said(exactpt.certify(scene, at=8)).startswith("no two bodies share a point at t = 8")
 
