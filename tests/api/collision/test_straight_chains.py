@@ -61,6 +61,7 @@ SCENES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("name", SCENES)
 def test_bug_a_straight_angle_of_one_body_ended_the_search_for_touches(name, variant):

@@ -126,6 +126,7 @@ def convoy(count):
     return Scene(bodies, time=(0, 1000))
 
 
+@pytest.mark.long
 def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
     assert "a convoy of 1,000 bodies at one velocity" in SPEED
     met = []

@@ -201,6 +201,7 @@ def test_distances_beyond_the_range_of_doubles(norm, d):
         assert found == (None if least is None else Approach(least, pairs))
 
 
+@pytest.mark.long
 def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
     """Without a limit, all intervals would be halved to the end: 130,000 of them."""
     asked = []

@@ -628,6 +628,7 @@ def test_bug_saving_to_a_pipe_or_device_replaces_it(tmp_path):
 # The scenes with known answers
 
 
+@pytest.mark.long
 @pytest.mark.long(
     "ballistic_k100",
     "comb_m256",

@@ -69,6 +69,7 @@ def test_regression(tiling, family, seed):
     run_and_audit(generate(family, seed), tiling)
 
 
+@pytest.mark.long
 @pytest.mark.long("chains", "grids_passing", "polygons_in_step")
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_filter_changes_nothing(family):

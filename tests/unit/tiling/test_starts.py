@@ -137,6 +137,7 @@ def test_stars_that_doubles_sort_wrongly_are_sorted_by_predicates(monkeypatch):
     assert sorted_again
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("unit", [1.0, 2.0**-40, 2.0**40, 2.0**90])
 @pytest.mark.parametrize("end", [1, 2**-20, 2**20])
 def test_starts_of_bodies_of_doubles(unit, end, monkeypatch):
@@ -201,6 +202,7 @@ def test_starts_from_arrays_make_no_bodies(seed, tiling):
     assert runs[0] == runs[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", FAMILIES)
 def test_starts_in_arrays_are_those_one_by_one(family, monkeypatch):
     """Degenerate bodies, deformation and turns among them."""
