@@ -628,8 +628,9 @@ def test_bug_saving_to_a_pipe_or_device_replaces_it(tmp_path):
 # The scenes with known answers
 
 
-@pytest.mark.long
 @pytest.mark.long(
+    "convex_k100",
+    "sparse_k100",
     "ballistic_k100",
     "comb_m256",
     "convex_k300",

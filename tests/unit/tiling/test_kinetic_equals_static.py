@@ -69,8 +69,7 @@ def test_regression(tiling, family, seed):
     run_and_audit(generate(family, seed), tiling)
 
 
-@pytest.mark.long
-@pytest.mark.long("chains", "grids_passing", "polygons_in_step")
+@pytest.mark.long("chains", "grids_passing", "polygons_in_step", "row", "turning_stars")
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_filter_changes_nothing(family):
     """The event log is the same, and so is the end, with and without the float filters."""
