@@ -93,7 +93,7 @@ class PieceBoxes:
         self._start = np.full(n, enclosing_floats(start)[0])
         self._end = np.full(n, enclosing_floats(end)[1])
         self.drift = middles(self._v)
-        self._outline, self._oriented = outline, None
+        self._put_outlines(outline)
         return self
 
     def _put(self, boxes: Boxes, reach: Floats) -> None:
@@ -110,8 +110,13 @@ class PieceBoxes:
         both = PieceBoxes.__new__(PieceBoxes)
         for name in _COLUMNS:
             setattr(both, name, np.concatenate((getattr(self, name), getattr(other, name))))
-        both.drift = self.drift
+        both.drift, n = self.drift, len(self)
+        both._put_outlines(lambda k: self._outline(k) if k < n else other._outline(k - n))  # noqa: SLF001
         return both
+
+    def _put_outlines(self, outline: Callable[[int], Outline]) -> None:
+        """Keep the outlines, of which oriented boxes are made on demand."""
+        self._outline, self._oriented = outline, None
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> tuple[Indices, Boxes]:

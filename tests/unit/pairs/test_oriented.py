@@ -105,3 +105,19 @@ def test_rectangles_at_the_ends_of_the_doubles_exclude_nothing(vertices):
     PieceBoxes(rows).narrow(np.array([0]), np.array([1]), low, high)
     assert low[0] == 0.0
     assert high[0] >= 0.0
+
+
+def test_bug_joined_pieces_have_oriented_boxes_too():
+    """The outlines of joined pieces were missing: narrowing their times raised AttributeError."""
+    rows = [
+        MotionPiece(k, straight_pieces(body)[0][0], QQ(0), QQ(3))
+        for k, body in enumerate(planks(6, 45).bodies)
+    ]
+    i, j = np.triu_indices(6, 1)
+    ends = []
+    for boxes in (PieceBoxes(rows), PieceBoxes(rows[:2]).joined(PieceBoxes(rows[2:]))):
+        low, high = np.zeros(len(i)), np.full(len(i), 3.0)
+        boxes.narrow(i, j, low, high)
+        ends.append((low > high).tolist())
+    assert ends[0] == ends[1]
+    assert any(ends[0])
