@@ -21,6 +21,7 @@ __all__ = ["PAGE", "made", "write"]
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "browser"
+NOT_COPIED: Final = (".*", "build", "dist", "*.egg-info", "__pycache__", "*.so")
 
 
 def made() -> Iterator[tuple[str, bytes]]:
@@ -39,9 +40,15 @@ def write(folder: Path) -> None:
 
 
 def _build(folder: Path) -> Path:
-    """The wheel without compiled modules."""
+    """The wheel without compiled modules.
+
+    It is built in a copy of the checkout, since setuptools writes beside the sources: two builds
+    at a time in one checkout delete each other's files.
+    """
+    source = folder / "source"
+    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(*NOT_COPIED))
     command = [sys.executable, "-m", "build", "--no-isolation", "--skip-dependency-check"]
-    command += ["--outdir", folder, ROOT]  # by way of an sdist: of sources alone
+    command += ["--outdir", folder, source]  # by way of an sdist: of sources alone
     environment = {**os.environ, "EXACTPT_PLAIN": "1"}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
