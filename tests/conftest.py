@@ -37,7 +37,7 @@ settings.register_profile(
 )
 
 MOST_BITS = 100_000
-BUDGET = float(os.environ.get("QUICK_BUDGET", "0.25"))  # seconds
+BUDGET = float(os.environ.get("QUICK_BUDGET", "0.5"))  # seconds
 """Seconds of processor time, children included, of a test in the quick tier."""
 
 FLAGS = (
