@@ -48,6 +48,9 @@ class Planner:
         self._scene = Scene(obstacles, time)
         self._obstacles = Obstacles(self._scene)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return Planner, (self._scene.bodies, (self._scene.start, self._scene.end))
+
     def first_contact(self, shape: Body | Iterable[VertexLike], motion: Motion) -> Contact | None:
         """Return the first contact of a shape with an obstacle or with itself, or None.
 

@@ -1,5 +1,0 @@
-"""The name under which pickles of 0.2 know `exactpt.pairs.approach`."""
-
-from exactpt.pairs.approach import Approach
-
-__all__ = ["Approach"]

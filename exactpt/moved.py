@@ -1,0 +1,46 @@
+"""Modules that have moved since 0.2: pickles of that version name them as they were then."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+from typing import Final
+
+MOVED: Final = {
+    "exactpt.collision.approach": "exactpt.pairs.approach",
+    "exactpt.collision.contact": "exactpt.pairs.contact",
+    "exactpt.collision.incidences": "exactpt.pairs.incidences",
+    "exactpt.proximity": "exactpt.pairs",
+    "exactpt.proximity.clearance": "exactpt.pairs.clearance",
+    "exactpt.proximity.distance": "exactpt.pairs.distance",
+    "exactpt.proximity.features": "exactpt.pairs.features",
+    "exactpt.proximity.intervals": "exactpt.pairs.intervals",
+}
+"""The name of each module in 0.2, and its name today."""
+
+
+class Moved:
+    """Finder and loader of modules under the names that they had: each is the module of today."""
+
+    @staticmethod
+    def find_spec(name: str, _path: object = None, _target: object = None) -> ModuleSpec | None:
+        """Return the spec of a module that has moved, or None."""
+        return ModuleSpec(name, Moved) if name in MOVED else None  # type: ignore[arg-type]
+
+    @staticmethod
+    def create_module(spec: ModuleSpec) -> ModuleType:
+        """Return the module of today, and keep its own spec, which the import system replaces."""
+        module = import_module(MOVED[spec.name])
+        spec.loader_state = module.__spec__
+        return module
+
+    @staticmethod
+    def exec_module(module: ModuleType) -> None:
+        """Give the module its own spec again."""
+        spec = module.__spec__
+        module.__spec__ = spec and spec.loader_state
+
+
+sys.meta_path.insert(0, Moved)
