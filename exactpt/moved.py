@@ -1,4 +1,4 @@
-"""Modules that have moved since 0.2: pickles of that version name them as they were then."""
+"""Modules that have moved since 0.2: pickles of that version contain their old names."""
 
 from __future__ import annotations
 
