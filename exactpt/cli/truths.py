@@ -134,7 +134,7 @@ def questions(
 
 
 def _write_set(folder: Path, passages: int, scenes: int, jobs: int, *, quiet: bool) -> int:
-    from exactpt.openset.writing import planned, write_set
+    from exactpt.collision_set.writing import planned, write_set
 
     parts = planned(passages, scenes)
     numbers = itertools.count(1)

@@ -15,7 +15,7 @@ import pytest
 from benchmarks import first_contact, planted, point_scenes
 from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
-from exactpt.openset import passages
+from exactpt.collision_set import passages
 from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.written import to_json
 from exactpt.testing.families import FAMILIES as QUESTIONS

@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.openset import passages
-from exactpt.openset.about import LICENSE, about
-from exactpt.openset.parts import Part, Written, write_part
+from exactpt.collision_set import passages
+from exactpt.collision_set.about import LICENSE, about
+from exactpt.collision_set.parts import Part, Written, write_part
 from exactpt.testing import families
 
 PASSAGES: Final = 1_000_000

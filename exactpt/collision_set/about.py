@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
-from exactpt.openset import passages
-from exactpt.openset.parts import VERSION, Part, Written
+from exactpt.collision_set import passages
+from exactpt.collision_set.parts import VERSION, Part, Written
 from exactpt.testing import families
 
 _HERE: Final = Path(__file__).parent

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from exactpt.openset.answers import coordinates
-from exactpt.openset.passages import Passage
+from exactpt.collision_set.answers import coordinates
+from exactpt.collision_set.passages import Passage
 from exactpt.testing.truth import Truth
 
 

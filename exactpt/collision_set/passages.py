@@ -11,7 +11,7 @@ from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.openset.places import Corners, Place, cross, mean, minus, plus, shifted, times
+from exactpt.collision_set.places import Corners, Place, cross, mean, minus, plus, shifted, times
 
 FINE: Final = 40
 """Number of binary places of a hair."""

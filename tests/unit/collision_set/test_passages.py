@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from exactpt.errors import InputError
-from exactpt.openset.answers import answers, coordinates
-from exactpt.openset.passages import DEGENERATE, FAMILIES, GENERIC, make_passage, polynomial
+from exactpt.collision_set.answers import answers, coordinates
+from exactpt.collision_set.passages import DEGENERATE, FAMILIES, GENERIC, make_passage, polynomial
 
 
 def some(family, count=60):
