@@ -22,7 +22,7 @@ from exactpt.pairs.contact import Contact
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.families.shapes import cells, convex_polygon
 from exactpt.scene.scene import Scene
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.tiling import Tiling

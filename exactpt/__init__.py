@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.history import History
-    from exactpt.simulation.plans import onward
+    from exactpt.simulation.motion_changes import onward
     from exactpt.simulation.responses import Bounce, stop
     from exactpt.simulation.simulation import Simulation
 
@@ -188,7 +188,7 @@ _ROOMS: Final = {
     "exactpt.scene.scene": ("Scene",),
     "exactpt.simulation.event": ("Event",),
     "exactpt.simulation.history": ("History",),
-    "exactpt.simulation.plans": ("onward",),
+    "exactpt.simulation.motion_changes": ("onward",),
     "exactpt.simulation.responses": (
         "Bounce",
         "stop",
@@ -213,7 +213,7 @@ for _name, _place in {
     "drawing of a simulation": "exactpt.render.draw:draw_run",
     "search that writes a proof": "exactpt.proof.emit:ProofRun",
     "search that writes a certificate": "exactpt.proof.certified:CertifiedSearch",
-    "proofs of a simulation": "exactpt.proof.living:ProofFolder",
+    "proofs of a simulation": "exactpt.proof.segments:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():
     register(_name, _place)

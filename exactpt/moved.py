@@ -17,6 +17,7 @@ MOVED: Final = {
     "exactpt.proximity.distance": "exactpt.pairs.distance",
     "exactpt.proximity.features": "exactpt.pairs.features",
     "exactpt.proximity.intervals": "exactpt.pairs.intervals",
+    "exactpt.simulation.plans": "exactpt.simulation.motion_changes",
 }
 """The name of each module in 0.2, and its name today."""
 

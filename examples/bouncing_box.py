@@ -20,7 +20,7 @@ from random import Random
 import exactpt
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.start import initial_touches
-from exactpt.simulation.plans import translation_at
+from exactpt.simulation.motion_changes import translation_at
 from exactpt.simulation.responses import Bounce
 
 WALLS = ("south", "east", "north", "west")

@@ -31,7 +31,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.proof.written import write_proof
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 from fuzz.statics import audit_at

@@ -10,8 +10,8 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
-from exactpt.errors import InputError
 from exactpt.collision_set.places import Corners, Place, cross, mean, minus, plus, shifted, times
+from exactpt.errors import InputError
 
 FINE: Final = 40
 """Number of binary places of a hair."""

@@ -14,10 +14,10 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from exactpt.errors import InputError
 from exactpt.collision_set import passages
 from exactpt.collision_set.about import LICENSE, about
 from exactpt.collision_set.parts import Part, Written, write_part
+from exactpt.errors import InputError
 from exactpt.testing import families
 
 PASSAGES: Final = 1_000_000

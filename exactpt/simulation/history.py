@@ -96,8 +96,8 @@ class Log:
         self._gone: list[Life] = []
         self._marks: list[Mark] = []
 
-    def met(self, contact: Contact) -> None:
-        """Bodies come into contact."""
+    def add_contact(self, contact: Contact) -> None:
+        """Add a contact of bodies."""
         names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
         names.update(name for pair in contact.overlaps for name in pair)
         self._marks.append(Mark(contact.time, "contact", tuple(sorted(names))))

@@ -2,8 +2,8 @@
 
 The contact is exact; the response is a modelling choice. New velocities are computed from the
 exact ones with the contact normal in doubles, and are rounded to a grid
-(`exactpt.simulation.plans`). Whether the bodies separate and when they meet again is decided
-exactly by the simulation.
+(`exactpt.simulation.motion_changes`). The simulation decides exactly whether the bodies separate
+and when they touch again.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, fraction, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
+from exactpt.simulation.motion_changes import GRID, onward, translation_velocity
 from exactpt.simulation.normals import Vector, normals_at
-from exactpt.simulation.plans import GRID, onward, translation_velocity
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact, Pair

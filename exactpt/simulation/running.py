@@ -18,8 +18,8 @@ from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event, events_of
 from exactpt.simulation.history import Log
-from exactpt.simulation.living import Choice, LivingScene
-from exactpt.simulation.met import Met, met
+from exactpt.simulation.mutable_scene import Choice, MutableScene
+from exactpt.simulation.reported_contact import ReportedContact, with_motions_of
 from exactpt.tiling.start import plan_tiling
 
 Response: TypeAlias = "Callable[[Contact], object]"
@@ -61,24 +61,24 @@ class Run:
         pending: events that have been processed and not been reported.
         contact: the contact that has ended the run, or None.
         contacts: number of contacts so far.
-        met: the last contact with a response.
+        reported: the last contact with a response.
         driver: drives the tiling; its observers record the run.
         log: what remembers the run, or None.
         alone: the context in which a thread uses the run.
     """
 
     def __init__(
-        self, living: LivingScene, budget: Budget, observers: Sequence[Observer] = ()
+        self, mutable: MutableScene, budget: Budget, observers: Sequence[Observer] = ()
     ) -> None:
-        self.living = living
+        self.mutable = mutable
         self.driver = Driver(
-            lambda: living.scene, living.tiling, observers=observers, budget=budget
+            lambda: mutable.scene, mutable.tiling, observers=observers, budget=budget
         )
-        self.margin = _margin_of(living.scene)
+        self.margin = _margin_of(mutable.scene)
         self.pending: deque[Event] = deque()
         self.contact: Contact | None = None
         self.contacts = 0
-        self.met: Met | None = None
+        self.reported: ReportedContact | None = None
         self.log: Log | None = None
         self.alone = OneThread()
         self._budget = budget
@@ -89,13 +89,13 @@ class Run:
         self, until: Rational | None, respond: Response | None, margin: Rational | None
     ) -> Iterator[Event]:
         """Yield the events up to and including a time, see `Simulation.run`."""
-        last = self.living.scene._end
+        last = self.mutable.scene._end
         end = last if until is None else min(rational(until), last)
         grid = self.margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
-        if self.contact is None and self.living.kinetic.is_after(end):
-            now = float(self.living.now)
+        if self.contact is None and self.mutable.kinetic.is_after(end):
+            now = float(self.mutable.now)
             raise InputError(f"until: t = {show(end)} is over, it is t = {now!r} now")
         while (event := self._next(end, respond, grid)) is not None:
             yield event
@@ -117,7 +117,7 @@ class Run:
         with self.alone:
             while not self.pending and self.contact is None:
                 self._spend(0)
-                if not self._advance(self.living.scene._end, None, self.margin):
+                if not self._advance(self.mutable.scene._end, None, self.margin):
                     break
             self._spend(len(self.pending))
             events = list(self.pending)
@@ -130,7 +130,7 @@ class Run:
             if self.contact is None:
                 self.check_whole()
                 with self._guarded():
-                    contact = self.driver.run(self.living.scene._end)
+                    contact = self.driver.run(self.mutable.scene._end)
                     if contact is not None:
                         self.end_with(contact)
             return self.contact
@@ -142,7 +142,7 @@ class Run:
             with self._budget.held():
                 events = self.driver.advance(end)
                 if events is not None:
-                    self.pending.extend(events_of(self.living.kinetic, events))
+                    self.pending.extend(events_of(self.mutable.kinetic, events))
                     return True
         except BaseException as error:
             self._failed(error)
@@ -201,23 +201,23 @@ class Run:
 
     def _answer(self, respond: Response, grid: QQ) -> None:
         """Respond just before a contact; unless something is changed, it takes place."""
-        living, driver = self.living, self.driver
+        mutable, driver = self.mutable, self.driver
         with self._guarded():  # all of it: the run cannot go on if the contact was not dealt with
             contact = driver.contact_ahead()
-            ahead = met(contact, living)
-            if self.met is not None and ahead.is_again(self.met):
+            ahead = with_motions_of(contact, mutable)
+            if self.reported is not None and ahead.is_again(self.reported):
                 self.contact = driver.meet()
                 return
             driver.kinetic.retreat(grid)
         self._report(contact)
-        self.met = ahead
-        changes = living.changes
+        self.reported = ahead
+        changes = mutable.changes
         respond(contact)
         check_rounding()
-        if living.changes == changes:
+        if mutable.changes == changes:
             self.contact = contact
             with self._guarded():
-                driver.advance(living.scene._end)
+                driver.advance(mutable.scene._end)
                 driver.meet()
 
     def end_record(self) -> None:
@@ -232,12 +232,12 @@ class Run:
     def _report(self, contact: Contact) -> None:
         self.contacts += 1
         if self.log is not None:
-            self.log.met(contact)
+            self.log.add_contact(contact)
         self.pending.append(Event(contact.time, "contact"))
 
     # Changes, and how far it is
 
-    def change(self, how: Callable[[LivingScene], Iterable[Event]]) -> None:
+    def change(self, how: Callable[[MutableScene], Iterable[Event]]) -> None:
         """Change motions or bodies at a rational time, and report the events that this causes.
 
         Raises:
@@ -251,14 +251,14 @@ class Run:
                 )
             self.check_whole()
             with self._guarded():
-                self.pending.extend(how(self.living))
-            t = self.living.now._low
+                self.pending.extend(how(self.mutable))
+            t = self.mutable.now._low
             if self.log is not None:
-                self.log.changed(t, self.living.bodies)
-            self.driver.change(self.living.kinetic, t)
+                self.log.changed(t, self.mutable.bodies)
+            self.driver.change(self.mutable.kinetic, t)
 
     def _scene(self) -> Scene:
-        return self.living.scene
+        return self.mutable.scene
 
     def reached(self) -> Fraction | None:
         """See `Simulation.reached`."""
@@ -286,12 +286,12 @@ def begin(
     """Return the run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
-        living = LivingScene(scene, None, Choice(tiling, plan.name, exact_only))
-        run = Run(living, budget, observers)
+        mutable = MutableScene(scene, None, Choice(tiling, plan.name, exact_only))
+        run = Run(mutable, budget, observers)
         run.log = log
         contact = run.driver.start(plan, exact_only=exact_only)
         if contact is None:
-            living.tiling = run.driver.tiling
+            mutable.tiling = run.driver.tiling
         else:
             run.end_with(contact)
         return run

@@ -6,8 +6,8 @@ from exactpt.kernel.budget import Budget
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
 from exactpt.scene.scene import Scene
-from exactpt.simulation.living import Choice, LivingScene
-from exactpt.simulation.met import Met
+from exactpt.simulation.mutable_scene import Choice, MutableScene
+from exactpt.simulation.reported_contact import ReportedContact
 from exactpt.simulation.running import Run
 from exactpt.simulation.saved import (
     Data,
@@ -28,25 +28,25 @@ def run_to_json(run: Run, scene: object) -> Data:
         InputError: if the run was interrupted in the middle of an event.
     """
     run.check_whole()
-    living = run.living
-    counts = counts_of(living.tiling)
+    mutable = run.mutable
+    counts = counts_of(mutable.tiling)
     return {
-        "name": living.name,
-        "tiling": living.choice.asked,
-        "exact_only": living.choice.exact_only,
+        "name": mutable.name,
+        "tiling": mutable.choice.requested,
+        "exact_only": mutable.choice.exact_only,
         "margin": str(run.margin),
         "scene": scene,
         "contact": None if run.contact is None else run.contact.to_json(),
-        "met": _met_to_json(run.met, living),
+        "met": _reported_to_json(run.reported, mutable),
         "pending": [event.to_json() for event in run.pending],
         "counts": {
             "contacts": run.contacts,
-            "changes": living.changes,
+            "changes": mutable.changes,
             "exact": counts.exact,
             "filtered": counts.filtered,
             "reasons": dict(counts.reasons),
         },
-        "state": None if living.tiling is None else tiling_to_json(living.tiling),
+        "state": None if mutable.tiling is None else tiling_to_json(mutable.tiling),
     }
 
 
@@ -60,22 +60,22 @@ def run_from_json(data: Data, scene: Scene, budget: Budget) -> Run:
     if kinetic is not None:
         before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
         kinetic.vertices.counters.set(before)
-    run = Run(LivingScene(scene, kinetic, choice, counts["changes"]), budget)
+    run = Run(MutableScene(scene, kinetic, choice, counts["changes"]), budget)
     run.margin = parse_rational(data["margin"])
     run.pending.extend(map(event_from_json, data["pending"]))
     run.contact = data["contact"] and contact_from_json(data["contact"])
     run.contacts = counts["contacts"]
-    run.met = data["met"] and _met_from_json(data["met"], run.living)
+    run.reported = data["met"] and _reported_from_json(data["met"], run.mutable)
     return run
 
 
-def _met_to_json(met: Met | None, living: LivingScene) -> Data | None:
+def _reported_to_json(reported: ReportedContact | None, mutable: MutableScene) -> Data | None:
     """Return the last contact with a response; None if it can no longer recur."""
-    if met is None or not met.may_recur(living):
+    if reported is None or not reported.may_recur(mutable):
         return None
-    return {"time": number_to_json(met.time), "bodies": sorted(met.bodies)}
+    return {"time": number_to_json(reported.time), "bodies": sorted(reported.bodies)}
 
 
-def _met_from_json(data: Data, living: LivingScene) -> Met:
-    bodies = {name: living.body(name) for name in data["bodies"]}
-    return Met(number_from_json(data["time"]), bodies)
+def _reported_from_json(data: Data, mutable: MutableScene) -> ReportedContact:
+    bodies = {name: mutable.body(name) for name in data["bodies"]}
+    return ReportedContact(number_from_json(data["time"]), bodies)

@@ -111,17 +111,17 @@ class Simulation:
     @property
     def scene(self) -> Scene:
         """The bodies with their current motions; the scene starts at the last change of motion."""
-        return self._run.living.scene
+        return self._run.mutable.scene
 
     @property
     def name(self) -> str:
         """The name of the tiling."""
-        return self._run.living.name
+        return self._run.mutable.name
 
     @property
     def now(self) -> AlgebraicNumber:
         """The current time."""
-        return self._run.living.now
+        return self._run.mutable.now
 
     @property
     def kinetic(self) -> Tiling | None:
@@ -129,7 +129,7 @@ class Simulation:
 
         At a contact it is the tiling just before.
         """
-        return self._run.living.tiling
+        return self._run.mutable.tiling
 
     @property
     def stats(self) -> dict[str, object]:
@@ -137,11 +137,11 @@ class Simulation:
 
         docs/howto/simulation.md#statistics explains the keys.
         """
-        living = self._run.living
-        data = report(living.scene, living.tiling)
-        if living.tiling is not None:
-            data |= rules_of(living.tiling, is_auto=living.choice.asked == AUTO)
-        return data | {"contacts": self.contacts, "plans": living.changes}
+        mutable = self._run.mutable
+        data = report(mutable.scene, mutable.tiling)
+        if mutable.tiling is not None:
+            data |= rules_of(mutable.tiling, is_auto=mutable.choice.requested == AUTO)
+        return data | {"contacts": self.contacts, "plans": mutable.changes}
 
     # Time
 
@@ -228,7 +228,7 @@ class Simulation:
         Raises:
             InputError: if there is none.
         """
-        return self._run.living.body(name)
+        return self._run.mutable.body(name)
 
     def set_motion(self, body: str, plan: Motion | Body) -> None:
         """Give a body another motion from now on, see `set_motions`."""
@@ -249,7 +249,7 @@ class Simulation:
             InputError: if there is no such body, a vertex would jump (the message names both
                 positions), or now is not rational or is the end of the time span.
         """
-        self._run.change(lambda living: living.set_motions(plans))
+        self._run.change(lambda mutable: mutable.set_motions(plans))
 
     def add(self, body: Body) -> None:
         """Add a body at the current time, which must be rational; it becomes the last one.
@@ -263,7 +263,7 @@ class Simulation:
             InputError: if its name is taken, it is not simple, it touches another body, or now is
                 not rational or is the end of the time span.
         """
-        self._run.change(lambda living: living.add(body))
+        self._run.change(lambda mutable: mutable.add(body))
 
     def remove(self, body: str) -> None:
         """Remove a body at the current time, which must be rational.
@@ -276,7 +276,7 @@ class Simulation:
             InputError: if there is no such body, or now is not rational or is the end of the time
                 span.
         """
-        self._run.change(lambda living: living.remove(body))
+        self._run.change(lambda mutable: mutable.remove(body))
 
     # Questions
 
@@ -294,7 +294,7 @@ class Simulation:
             raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
         with self._run.alone:
             self._run.check_whole()
-            return self._spaces.space(self._run.living.kinetic, at)
+            return self._spaces.space(self._run.mutable.kinetic, at)
 
     def snapshot(self) -> Snapshot:
         """Return the tiling at the current time, which must be rational.

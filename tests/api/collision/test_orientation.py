@@ -11,7 +11,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from fuzz.variants import VARIANTS, difference
 
 QUARTERS = [(1, 0), (0, 1), (-1, 0), (0, -1)]

@@ -11,9 +11,9 @@ import pytest
 
 from exactpt import proof_check
 from exactpt.cli import main
-from exactpt.errors import InputError
 from exactpt.collision_set import passages, writing
 from exactpt.collision_set.writing import planned, write_set
+from exactpt.errors import InputError
 from exactpt.testing import families
 from exactpt.testing.oracle import Refusals, answers
 

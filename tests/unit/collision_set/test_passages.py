@@ -6,9 +6,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from exactpt.errors import InputError
 from exactpt.collision_set.answers import answers, coordinates
 from exactpt.collision_set.passages import DEGENERATE, FAMILIES, GENERIC, make_passage, polynomial
+from exactpt.errors import InputError
 
 
 def some(family, count=60):

@@ -19,7 +19,7 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import TILINGS, start_tiling

@@ -186,7 +186,7 @@ def ctrl_c(*args, **options):
 def test_bug_interrupted_before_the_response_to_a_contact_a_run_passed_it(monkeypatch):
     simulation = Simulation(SCENES["rational"])
     with monkeypatch.context() as patch:
-        patch.setattr("exactpt.simulation.running.met", ctrl_c)
+        patch.setattr("exactpt.simulation.running.with_motions_of", ctrl_c)
         with pytest.raises(KeyboardInterrupt):
             list(simulation.run(on_contact=lambda *_: None))
 

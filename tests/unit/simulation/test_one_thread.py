@@ -99,12 +99,12 @@ def test_bug_three_threads_never_change_the_events():
 def test_a_run_interrupted_in_an_event_does_not_go_on(monkeypatch, error):
     simulation = Simulation(generate("turning", 1), tiling="greedy")
     simulation.step()
-    living = simulation._run.living
+    mutable = simulation._run.mutable
 
     def interrupt(_plans):
         raise error
 
-    monkeypatch.setattr(living, "set_motions", interrupt)
+    monkeypatch.setattr(mutable, "set_motions", interrupt)
     with pytest.raises(error):
         simulation.set_motions({})
     with pytest.raises(InputError, match="interrupted in the middle of an event"):

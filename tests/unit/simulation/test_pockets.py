@@ -3,7 +3,7 @@
 from random import Random
 
 import pytest
-from test_plans import audit
+from test_motion_changes import audit
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ

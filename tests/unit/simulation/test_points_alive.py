@@ -5,7 +5,7 @@ from itertools import combinations
 from random import Random
 
 import pytest
-from test_plans import audit, turn_back
+from test_motion_changes import audit, turn_back
 from test_save import check
 
 from exactpt.kernel.numbers import QQ
@@ -13,7 +13,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
 from exactpt.scene.generate import POINTS, generate
 from exactpt.scene.scene import Scene
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.simulation import Simulation
 
 

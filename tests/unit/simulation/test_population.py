@@ -4,7 +4,7 @@ import json
 from random import Random
 
 import pytest
-from test_plans import at, audit, crowd, some_plan, turn_back
+from test_motion_changes import at, audit, crowd, some_plan, turn_back
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ

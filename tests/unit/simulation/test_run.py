@@ -14,7 +14,7 @@ from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
-from exactpt.simulation.plans import onward, rounded, translation_at
+from exactpt.simulation.motion_changes import onward, round_to_grid, translation_at
 from exactpt.simulation.responses import Bounce, stop
 from exactpt.simulation.simulation import Simulation
 
@@ -132,7 +132,7 @@ def test_rounded_is_the_nearest_multiple():
     rng = Random(0)
     for _ in range(200):
         value, grid = QQ(rng.randint(-99, 99), rng.randint(1, 9)), QQ(1, rng.randint(1, 8))
-        near = rounded(value, grid)
+        near = round_to_grid(value, grid)
         assert (near / grid).denominator == 1
         assert abs(near - value) <= grid / 2
 

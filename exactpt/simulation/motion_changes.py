@@ -28,7 +28,7 @@ GRID = power_of_two(-20)
 """Default grid of velocities."""
 
 
-def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
+def with_new_motion(body: Body, plan: Motion | Body, t: QQ) -> Body:
     """Return a body with a new motion from a time on.
 
     Args:
@@ -68,7 +68,7 @@ def _moves_on(body: Body, new: Body, t: QQ) -> bool:
     )
 
 
-def rounded(value: Rational, grid: Rational = GRID) -> QQ:
+def round_to_grid(value: Rational, grid: Rational = GRID) -> QQ:
     """Return the multiple of ``grid`` nearest to a number; the larger of two.
 
     Raises:
@@ -99,7 +99,7 @@ def onward(
     """
     now = rational(t)
     vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
-    v = rounded(vx, grid), rounded(vy, grid)
+    v = round_to_grid(vx, grid), round_to_grid(vy, grid)
     if not isinstance(body.motion, Pieces):
         return _onward(body.motion, now, v)
     pieces: list[tuple[QQ | None, SimpleMotion]] = []

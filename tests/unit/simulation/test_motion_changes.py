@@ -13,7 +13,7 @@ from exactpt.motion.motions import Pieces, Rigid, Translation
 from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
-from exactpt.simulation.plans import onward
+from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.simulation import Simulation
 from fuzz.statics import audit_at
 

@@ -7,10 +7,10 @@ from typing import NamedTuple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import Body
 from exactpt.pairs.contact import Contact
-from exactpt.simulation.living import LivingScene
+from exactpt.simulation.mutable_scene import MutableScene
 
 
-class Met(NamedTuple):
+class ReportedContact(NamedTuple):
     """A contact, with the motions that its bodies had just before it.
 
     Attributes:
@@ -21,7 +21,7 @@ class Met(NamedTuple):
     time: AlgebraicNumber
     bodies: dict[str, Body]
 
-    def is_again(self, other: Met) -> bool:
+    def is_again(self, other: ReportedContact) -> bool:
         """Return True if another contact has the same time, bodies and motions."""
         mine, theirs = self.bodies, other.bodies
         return (
@@ -30,12 +30,12 @@ class Met(NamedTuple):
             and all(mine[name] is theirs[name] for name in mine)
         )
 
-    def may_recur(self, living: LivingScene) -> bool:
+    def may_recur(self, mutable: MutableScene) -> bool:
         """Return True if all of its bodies still have the same motions."""
-        return all(living.has(body) for body in self.bodies.values())
+        return all(mutable.has(body) for body in self.bodies.values())
 
 
-def met(contact: Contact, living: LivingScene) -> Met:
-    """Return a contact that lies ahead of a scene."""
+def with_motions_of(contact: Contact, mutable: MutableScene) -> ReportedContact:
+    """Return a contact ahead of a scene, with the current motions of its bodies."""
     names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
-    return Met(contact.time, {name: living.body(name) for name in names})
+    return ReportedContact(contact.time, {name: mutable.body(name) for name in names})

@@ -13,7 +13,7 @@ from exactpt.motion.motions import Motion
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event, events_of
-from exactpt.simulation.plans import planned
+from exactpt.simulation.motion_changes import with_new_motion
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
@@ -27,13 +27,13 @@ class Choice(NamedTuple):
         exact_only: whether the float filters are off.
     """
 
-    asked: str
+    requested: str
     name: str
     exact_only: bool
 
 
 @final
-class LivingScene:
+class MutableScene:
     """A scene with its tiling; bodies are added, removed and given new motions.
 
     Attributes:
@@ -139,7 +139,10 @@ class LivingScene:
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
         """Change motions, see `Simulation.set_motions`; return the events caused at once."""
         t = self.rational_now()
-        new = {self._index(name): planned(self.body(name), plan, t) for name, plan in plans.items()}
+        new = {
+            self._index(name): with_new_motion(self.body(name), plan, t)
+            for name, plan in plans.items()
+        }
         events = self.kinetic.change_plans(new, t)
         if events is None:
             bodies = [new.get(i, body) for i, body in enumerate(self._bodies)]
@@ -193,7 +196,7 @@ class LivingScene:
         before = self._diagonals()
         scene = self._end.going_on(bodies, t)
         choice = self.choice
-        kinetic = plan_tiling(scene, choice.asked, t).start(t, exact_only=choice.exact_only)
+        kinetic = plan_tiling(scene, choice.requested, t).start(t, exact_only=choice.exact_only)
         kinetic.take_over_counts(self.kinetic)
         kinetic.stats.count("motion")
         kinetic.stats.rebuilds += 1
