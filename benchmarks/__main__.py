@@ -11,7 +11,7 @@ from benchmarks.machine import machine
 from benchmarks.output import Output, exceeds
 from exactpt.cli import main
 from exactpt.cli.options import output
-from exactpt.cli.terminal import is_terminal, say, tell
+from exactpt.cli.terminal import is_terminal, print_error, print_output
 from exactpt.errors import InputError
 
 __all__ = ["bench"]
@@ -59,28 +59,28 @@ def bench(
 
     def progress(line: str) -> None:
         if is_terminal():
-            tell(line)
+            print_error(line)
 
     try:
         results = Output(output, _say_lines, progress)
     except OSError as error:
         raise InputError(f"{output}: {error.strerror}") from None
     about = [*machine(), f"seed {seed}, {'quick' if quick else 'full'} sizes"]
-    say(*about)
+    print_output(*about)
     results.write("machine.txt", "\n".join(about) + "\n")
     above: list[str] = []
     for name in names or BENCHMARKS:
         rows = run(name, results, quick=quick, seed=seed)
         if name == "exponents" and fail_above is not None:
             above = exceeds(rows or [], fail_above)
-    say("", f"{len(results.written)} files are in {output}")
+    print_output("", f"{len(results.written)} files are in {output}")
     if above:
-        tell(f"exponents above {fail_above:g}: {', '.join(above)}")
+        print_error(f"exponents above {fail_above:g}: {', '.join(above)}")
     return 1 if above else 0
 
 
 def _say_lines(text: str) -> None:
-    say(*text.split("\n"))
+    print_output(*text.split("\n"))
 
 
 if __name__ == "__main__":

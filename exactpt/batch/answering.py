@@ -63,7 +63,7 @@ def answer(content: bytes, question: Question) -> Answer:
     try:
         with question.budget():
             ask()
-            return question.ask(_scene(content))
+            return question.answer(_scene(content))
     except (InputError, BudgetExceeded) as error:
         return {"error": str(error)}
     except MemoryError:

@@ -77,17 +77,17 @@ def record_of(answered: Answered, at: int) -> Record:
     return Record._make([*about, at, len(text)])
 
 
-def answered(chunk: Chunk, _tell: Callable[[Step], None], question: Question) -> Answered:
+def answered(chunk: Chunk, _report: Callable[[Step], None], question: Question) -> Answered:
     """Return the answers for a chunk; empty lines have none."""
     rows = _rows(chunk)
-    return _told(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
+    return _joined(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
 
 
 def one_by_one(chunk: Chunk, _step: Step | None, _why: str, question: Question) -> Answered:
     """Return the answers for a chunk that ends its workers, each scene by itself in a process."""
     work = Work(partial(_answer, question=question), _no_answer)
     found = dict(results_of(work, iter(_rows(chunk).items()), 1))
-    return _told(chunk, sorted(found.items()))
+    return _joined(chunk, sorted(found.items()))
 
 
 def _rows(chunk: Chunk) -> dict[int, bytes]:
@@ -98,7 +98,7 @@ def _rows(chunk: Chunk) -> dict[int, bytes]:
 
 def _answer(
     row: tuple[int, bytes],
-    _tell: Callable[[Step], None],
+    _report: Callable[[Step], None],
     question: Question,
 ) -> tuple[int, Answer]:
     return row[0], answer(row[1], question)
@@ -108,17 +108,17 @@ def _no_answer(row: tuple[int, bytes], _step: Step | None, why: str) -> tuple[in
     return row[0], {"error": f"the scene {why}"}
 
 
-def _told(chunk: Chunk, found: Iterable[tuple[int, Answer]]) -> Answered:
-    told = [(number, data) for number, data in found]
-    failures = [f"line {number}: {data['error']}" for number, data in told if "error" in data]
-    text = "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in told)
+def _joined(chunk: Chunk, found: Iterable[tuple[int, Answer]]) -> Answered:
+    rows = [(number, data) for number, data in found]
+    failures = [f"line {number}: {data['error']}" for number, data in rows if "error" in data]
+    text = "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in rows)
     lines = chunk.text.removesuffix(b"\n").count(b"\n") + 1
     return Answered(
         chunk.start,
         chunk.stop,
         chunk.digest,
         lines,
-        len(told),
+        len(rows),
         len(failures),
         failures[0] if failures else "",
         text.encode(),

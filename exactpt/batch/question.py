@@ -104,7 +104,7 @@ class Question:
         most = self.max_seconds
         return within(None if most is None else clock.monotonic() + most, self.max_memory)
 
-    def ask(self, scene: Scene) -> dict[str, object]:
+    def answer(self, scene: Scene) -> dict[str, object]:
         """Return the answer for a scene as JSON, see docs/format.md.
 
         Raises:

@@ -46,7 +46,7 @@ def _run(*command: str) -> None:
     except OSError as error:
         raise InputError(f"cannot start {command[0]}: {error.strerror}; {debian}") from None
     if done.returncode:
-        said = [line.strip() for line in (done.stderr + done.stdout).splitlines() if line.strip()]
-        why = next((line for line in said if "error" in line.lower()), "it says nothing")
-        reason = " ".join([why, *said[said.index(why) + 1 :][:2]]) if why in said else why
+        output = [line.strip() for line in (done.stderr + done.stdout).splitlines() if line.strip()]
+        why = next((line for line in output if "error" in line.lower()), "it says nothing")
+        reason = " ".join([why, *output[output.index(why) + 1 :][:2]]) if why in output else why
         raise InputError(f"cgal_check cannot be built: {reason[:400]}; {debian}")

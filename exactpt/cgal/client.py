@@ -62,9 +62,9 @@ def recognise(program: Path) -> None:
         witness.orientations([])
 
 
-def _another(program: Path, said: str) -> InputError:
+def _another(program: Path, message: str) -> InputError:
     return InputError(
-        f"{str(program)!r} is not cgal_check, it does not speak {_GREETING!r}: {said}"
+        f"{str(program)!r} is not cgal_check, it does not speak {_GREETING!r}: {message}"
     )
 
 
@@ -252,17 +252,17 @@ class CgalCheck:
 
     def _failure(self, last_words: str) -> InputError | AuditError:
         process, errors = self._process, self._errors
-        code, said = None, ""
+        code, message = None, ""
         if process is not None and errors is not None:
             if last_words and not last_words.startswith("error"):
                 process.kill()  # it uses another protocol and may never end
             code = process.wait()
             errors.seek(0)
-            said = errors.read()[-2000:].decode("utf-8", "replace").strip()
+            message = errors.read()[-2000:].decode("utf-8", "replace").strip()
         self.close()
         if code == 2:
             return InputError(f"cgal_check refuses the request: {last_words}")
-        return AuditError(f"cgal_check ended with {code}: {last_words} {said}".rstrip())
+        return AuditError(f"cgal_check ended with {code}: {last_words} {message}".rstrip())
 
 
 def _verdict(answer: str) -> Verdict:

@@ -109,5 +109,5 @@ def _verdict(
         raise InputError(f"cgal_check: {line}")
     if done.returncode == _NOT_DECIDED:
         raise BudgetExceeded(f"cgal_check: {line}", None)
-    said = done.stderr[-2000:].decode("utf-8", "replace").strip()
-    raise AuditError(f"cgal_check ended with {done.returncode}: {line} {said}".rstrip())
+    message = done.stderr[-2000:].decode("utf-8", "replace").strip()
+    raise AuditError(f"cgal_check ended with {done.returncode}: {line} {message}".rstrip())

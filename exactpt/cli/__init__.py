@@ -19,7 +19,7 @@ from exactpt.cli.terminal import (
     drop_standard_output,
     drop_unwritten_output,
     encodable,
-    tell,
+    print_error,
 )
 from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError
 
@@ -71,7 +71,7 @@ class _Commands(click.Group):
             raise
         except Exception as error:
             if not isinstance(error, AuditError):
-                tell(*traceback.format_exc().splitlines())
+                print_error(*traceback.format_exc().splitlines())
             _report_bug(error, ctx.meta.get(SCENE_FILE))
             return BROKEN
 
@@ -121,15 +121,17 @@ def all_commands() -> dict[str, click.Command]:
 
 def _report_bug(error: Exception, scene: Path | None) -> None:
     """Report a broken invariant, and save the scene that caused it."""
-    tell(f"exactpt: an invariant broke: {error}")
+    print_error(f"exactpt: an invariant broke: {error}")
     content = _scene_of(error, scene)
     if content is not None:
         with tempfile.NamedTemporaryFile(
             "wb", prefix="exactpt-bug-", suffix=".json", delete=False
         ) as file:
             file.write(content)
-        tell(f"exactpt: the scene is saved in {file.name}")
-    tell("exactpt: this is a bug in exactpt; please report it with the command and the scene")
+        print_error(f"exactpt: the scene is saved in {file.name}")
+    print_error(
+        "exactpt: this is a bug in exactpt; please report it with the command and the scene"
+    )
 
 
 def _scene_of(error: Exception, scene: Path | None) -> bytes | None:
@@ -165,19 +167,21 @@ def main(
         error.show()
         code = BAD_INPUT
     except click.ClickException as error:
-        tell(f"exactpt: {_cut(error.format_message())}{_where_to_look(error)}")
+        print_error(f"exactpt: {_cut(error.format_message())}{_where_to_look(error)}")
         code = BAD_INPUT
     except (InputError, RoundingError) as error:
-        tell(f"exactpt: {_cut(str(error))}")
+        print_error(f"exactpt: {_cut(str(error))}")
         code = BAD_INPUT
     except (BudgetExceeded, MemoryError) as error:
-        tell(f"exactpt: {error if isinstance(error, BudgetExceeded) else 'the memory is used up'}")
+        print_error(
+            f"exactpt: {error if isinstance(error, BudgetExceeded) else 'the memory is used up'}"
+        )
         code = SPENT
     except OSError as error:
-        tell(f"exactpt: {error.strerror or error}")
+        print_error(f"exactpt: {error.strerror or error}")
         drop_unwritten_output()
         code = BAD_INPUT
     except (KeyboardInterrupt, click.Abort):
-        tell("exactpt: interrupted")
+        print_error("exactpt: interrupted")
         code = INTERRUPTED
     sys.exit(code if isinstance(code, int) else OK)

@@ -17,7 +17,7 @@ from exactpt.cli.options import (
     output,
 )
 from exactpt.cli.progress import estimating
-from exactpt.cli.terminal import tell
+from exactpt.cli.terminal import print_error
 from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES
 from exactpt.kernel.numbers import QQ
@@ -119,10 +119,10 @@ def batch(
     except KeyboardInterrupt:
         from exactpt.cli import INTERRUPTED
 
-        tell(_interrupted(output, *share))
+        print_error(_interrupted(output, *share))
         return INTERRUPTED
     if not quiet:
-        tell(f"{done.scenes} scenes processed, {done.failures} failed")
+        print_error(f"{done.scenes} scenes processed, {done.failures} failed")
     if done.failures:
         raise InputError(f"{done.failures} of {done.scenes} scenes have no answer; {done.first}")
     return 0

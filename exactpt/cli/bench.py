@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 import exactpt
-from exactpt.cli.terminal import tell
+from exactpt.cli.terminal import print_error
 
 
 @click.command(
@@ -26,7 +26,7 @@ def bench(arguments: tuple[str, ...]) -> int:
     """
     checkout = Path(exactpt.__file__).parents[1]
     if not (checkout / "benchmarks" / "catalogue.py").is_file():
-        tell("exactpt bench: moved to the repository (python -m benchmarks)")
+        print_error("exactpt bench: moved to the repository (python -m benchmarks)")
         return 2
     if str(checkout) not in sys.path:
         sys.path.insert(0, str(checkout))

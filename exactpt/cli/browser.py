@@ -9,7 +9,7 @@ import json
 import traceback
 from collections.abc import Callable
 
-from exactpt.cli.terminal import tell
+from exactpt.cli.terminal import print_error
 from exactpt.cli.words import answer_in_words
 from exactpt.collision.searches import Question, search_for
 from exactpt.errors import InputError
@@ -72,6 +72,6 @@ def _or_error(answered: Callable[[], dict[str, str]]) -> str:
     except InputError as error:
         return json.dumps({"error": f"exactpt: {error}"})
     except Exception as error:
-        tell(*traceback.format_exc().splitlines())
+        print_error(*traceback.format_exc().splitlines())
         bug = "this is a bug in exactpt; please report it with the scene"
         return json.dumps({"error": f"exactpt: an invariant broke: {error}; {bug}"})

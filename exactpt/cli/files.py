@@ -11,7 +11,7 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
-from exactpt.cli.terminal import say, tell
+from exactpt.cli.terminal import print_error, print_output
 from exactpt.cli.words import name_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, show
@@ -131,9 +131,9 @@ def convert(
         write_shapes(scene, target, at, tolerance=tolerance)
     if not quiet:
         for line in remarks:
-            tell(line)
+            print_error(line)
         if is_scene:
-            say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
+            print_output(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
     return 0
 
 

@@ -31,9 +31,9 @@ def collide_all(
     with time_limit(max_seconds, max_memory()):
         scene = load(path, until)
         found = contacts(scene)
-        told = intervals_in_words(scene, found)
+        lines = intervals_in_words(scene, found)
         answer = {"intervals": [i.to_json() for i in found], "until": str(scene._end)}
-    click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(told))
+    click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(lines))
     return 1 if exit_code and found else 0
 
 
@@ -47,17 +47,17 @@ def collide_enclosed(
     with time_limit(max_seconds, max_memory()):
         scene = load(path, until)
         found = first_contact_enclosed(scene)
-        told = bounds_in_words(scene, found)
+        lines = bounds_in_words(scene, found)
         answer = {"enclosed": found and found.to_json(), "until": str(scene._end)}
-    click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(told))
+    click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(lines))
     return 1 if exit_code and found is not None else 0
 
 
-def _check_alone(asked: str) -> None:
+def _check_alone(option_name: str) -> None:
     """Refuse options that cannot be combined with the given one."""
     context = click.get_current_context()
     option = {str(p.name): p.opts[-1] for p in context.command.params}
     for name, written in option.items():
         source = context.get_parameter_source(name)
-        if name not in {*TOGETHER, asked} and source is ParameterSource.COMMANDLINE:
-            raise InputError(f"{option[asked]}: {written} is for the first contact alone")
+        if name not in {*TOGETHER, option_name} and source is ParameterSource.COMMANDLINE:
+            raise InputError(f"{option[option_name]}: {written} is for the first contact alone")

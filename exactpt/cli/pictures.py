@@ -22,7 +22,7 @@ from exactpt.cli.options import (
     output,
 )
 from exactpt.cli.progress import estimating, progress
-from exactpt.cli.terminal import say
+from exactpt.cli.terminal import print_output
 from exactpt.cli.words import answer_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
@@ -156,12 +156,12 @@ def demo(output: Path, *, show: bool) -> int:
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
     film = film_of(given, tiling="auto")
     bodies = ", ".join(body.name for body in given.bodies)
-    say(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
+    print_output(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
     write_atomically(output, page_of(film, title="exactpt demo"))
-    say(f"the animation is in {output}: open it in a browser (or: exactpt demo --open)")
+    print_output(f"the animation is in {output}: open it in a browser (or: exactpt demo --open)")
     proof = prove(given)
-    say(f"a proof of {len(proof.text):,} bytes, checked by a program that shares no code:")
-    say(f"  {proof.check()}")
+    print_output(f"a proof of {len(proof.text):,} bytes, checked by a program that shares no code:")
+    print_output(f"  {proof.check()}")
     if show and click.launch(str(output.resolve())):
         raise InputError(f"no browser to open {output} in")
     return 0

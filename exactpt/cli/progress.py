@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from exactpt.cli.terminal import is_terminal, tell
+from exactpt.cli.terminal import is_terminal, print_error
 from exactpt.kernel.numbers import floor
 
 if TYPE_CHECKING:
@@ -82,14 +82,14 @@ def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, in
 
             yield move
         return
-    said = clock.monotonic()
+    printed = clock.monotonic()
 
     def line(done: int, whole: int) -> None:
-        nonlocal said
+        nonlocal printed
         left = rest(done, whole)
-        if clock.monotonic() - said >= SECONDS and left:
-            said = clock.monotonic()
-            tell(f"{label}: {100 * done // whole}%, {left}")
+        if clock.monotonic() - printed >= SECONDS and left:
+            printed = clock.monotonic()
+            print_error(f"{label}: {100 * done // whole}%, {left}")
 
     yield line
 

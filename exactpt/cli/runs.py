@@ -13,7 +13,7 @@ import click
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.naming import names_in, two_names
 from exactpt.cli.options import QUIET, RATIONAL, SCENE, TILING, budget, load, max_memory
-from exactpt.cli.terminal import drop_standard_output, say
+from exactpt.cli.terminal import drop_standard_output, print_output
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
@@ -167,23 +167,23 @@ def _first_contact(
             answer["tiling"] = search.name
             contact = search.run_to_contact()
             stated = contact and contact.to_json()
-            told = answer_in_words(given, contact, "new " if question.after_start else "")
+            lines = answer_in_words(given, contact, "new " if question.after_start else "")
     except BudgetExceeded as spent:
-        _tell_how_far(spent, search)
+        _add_time_reached(spent, search)
         reached = None if spent.reached is None else str(rational(spent.reached))
         if as_json:
             answer |= {"stats": {} if search is None else search.stats, "reached": reached}
             click.echo(json.dumps(answer, indent=1))
         elif reached is not None:
-            say(f"no contact up to t = {reached}")
+            print_output(f"no contact up to t = {reached}")
         raise
     if as_json:
         answer |= {"contact": stated, "stats": search.stats}
         click.echo(json.dumps(answer, indent=1))
     else:
-        say(*told)
+        print_output(*lines)
         if stats:
-            say(*stats_in_words(search.stats))
+            print_output(*stats_in_words(search.stats))
     return contact
 
 
@@ -226,16 +226,16 @@ def simulate(
 
     with writing(events) if events is not None else nullcontext() as log:
 
-        def tell(event: Event) -> None:
+        def report(event: Event) -> None:
             if log is not None:
                 log(f"{json.dumps(event.to_json())}\n")
             if verbose:
-                _say(event_in_words(event), go_on=log is not None)
+                _print_line(event_in_words(event), go_on=log is not None)
 
-        told = _run(
+        lines = _run(
             scene,
             until,
-            tell,
+            report,
             quiet=quiet or verbose,
             tiling=tiling,
             proof=proof,
@@ -243,14 +243,14 @@ def simulate(
             max_seconds=max_seconds,
         )
     if not quiet:
-        say(*told)
+        print_output(*lines)
     return 0
 
 
-def _say(line: str, *, go_on: bool) -> None:
+def _print_line(line: str, *, go_on: bool) -> None:
     """Print a line; if the reader is gone, continue only if there is a file to complete."""
     try:
-        say(line)
+        print_output(line)
     except BrokenPipeError:
         if not go_on:
             raise
@@ -260,7 +260,7 @@ def _say(line: str, *, go_on: bool) -> None:
 def _run(
     path: Path,
     until: QQ | None,
-    tell: Callable[[Event], None],
+    report: Callable[[Event], None],
     *,
     quiet: bool,
     tiling: str,
@@ -285,16 +285,16 @@ def _run(
             )
             with progress(given, "simulating", quiet=quiet) as reached:
                 for event in simulation.run():
-                    tell(event)
+                    report(event)
                     if reached is not None:
                         reached(event.time)
             return [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
     except BudgetExceeded as spent:
-        _tell_how_far(spent, simulation)
+        _add_time_reached(spent, simulation)
         raise
 
 
-def _tell_how_far(spent: BudgetExceeded, search: Search | None) -> None:
+def _add_time_reached(spent: BudgetExceeded, search: Search | None) -> None:
     """Complete an interruption by the time up to which there is provably no contact."""
     if spent.reached is None and search is not None:
         spent.reached = search.passed()

@@ -13,12 +13,12 @@ import click
 from exactpt.errors import printable
 
 
-def say(*lines: str) -> None:
+def print_output(*lines: str) -> None:
     """Print lines of an answer on standard output, unprintable characters escaped."""
     click.echo("\n".join(map(printable, lines)))
 
 
-def tell(*lines: str) -> None:
+def print_error(*lines: str) -> None:
     """Print lines on standard error, unprintable characters escaped.
 
     If they cannot be written, they are lost; the exit code is the same.

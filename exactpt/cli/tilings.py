@@ -22,7 +22,7 @@ from exactpt.cli.options import (
     output,
 )
 from exactpt.cli.progress import progress
-from exactpt.cli.terminal import say, tell
+from exactpt.cli.terminal import print_error, print_output
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
@@ -81,9 +81,9 @@ def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None)
         return
     from exactpt.cgal import build_program
 
-    tell(f"building cgal_check in {folder}, which takes a minute")
+    print_error(f"building cgal_check in {folder}, which takes a minute")
     program = build_program(folder)
-    say(f"export EXACTPT_CGAL_CHECK={shlex.quote(str(program.resolve()))}")
+    print_output(f"export EXACTPT_CGAL_CHECK={shlex.quote(str(program.resolve()))}")
     ctx.exit()
 
 
@@ -98,8 +98,8 @@ def _write_checker(ctx: click.Context, option: click.Parameter, path: Path | Non
     kind = "CERTIFICATE" if is_apart else "PROOF"
     content = Path(check_apart.__file__ if is_apart else proof_check.__file__).read_bytes()
     write_atomically(path, content)
-    say(f"{hashlib.sha256(content).hexdigest()}  {path}")
-    tell(f"run it as: python3 -I {path} SCENE {kind}")
+    print_output(f"{hashlib.sha256(content).hexdigest()}  {path}")
+    print_error(f"run it as: python3 -I {path} SCENE {kind}")
     ctx.exit()
 
 
@@ -120,7 +120,7 @@ def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> in
     accepted = by_python.startswith("accepted: ")
     agree = by_python == verdict.line if accepted else not verdict.accepted
     if not quiet:
-        say(by_python, f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
+        print_output(by_python, f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
     return 0 if accepted and agree else 1
 
 
@@ -147,7 +147,7 @@ def _check_certificate(path: Path, *, quiet: bool) -> int:
     except check_apart.Exhausted as exhausted:
         raise BudgetExceeded(str(exhausted), None) from None
     if not quiet:
-        say(verdict)
+        print_output(verdict)
     return code
 
 
@@ -239,5 +239,7 @@ def check(
             click.echo(json.dumps({"ok": None, "reached": reached_by}))
         raise
     if not quiet:
-        say(*(json.dumps(report.to_json(), indent=1).split("\n") if as_json else report.lines()))
+        print_output(
+            *(json.dumps(report.to_json(), indent=1).split("\n") if as_json else report.lines())
+        )
     return 0 if report.ok else 1

@@ -13,7 +13,7 @@ import click
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
 from exactpt.cli.progress import estimating
-from exactpt.cli.terminal import say, tell
+from exactpt.cli.terminal import print_error, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
@@ -44,10 +44,10 @@ def oracle(file: BinaryIO, max_seconds: float | None) -> int:
     refusals, first = Refusals(), 1
     with time_limit(max_seconds, max_memory()):
         for lines in batches(file, max_bytes()):
-            said = "\n".join(answers(lines, first, refusals))
+            output = "\n".join(answers(lines, first, refusals))
             first += len(lines)
-            if said:
-                click.echo(said)  # it flushes
+            if output:
+                click.echo(output)  # it flushes
     if refusals.count:
         raise InputError(f"{refusals.count} of {first - 1} lines refused; {refusals.first}")
     return 0
@@ -141,7 +141,9 @@ def _write_set(folder: Path, passages: int, scenes: int, jobs: int, *, quiet: bo
     with estimating("Families", quiet=quiet) as show:
         summary = write_set(folder, parts, jobs=jobs, done=lambda: show(next(numbers), len(parts)))
     if not quiet:
-        say(f"{summary.files} files: {folder}", f"SHA-256 of SHA256SUMS: {summary.manifest}")
+        print_output(
+            f"{summary.files} files: {folder}", f"SHA-256 of SHA256SUMS: {summary.manifest}"
+        )
     return 0
 
 
@@ -209,8 +211,8 @@ def judge(
             table, wrong = judged(given, known, tolerance)
         except InputError as error:
             raise InputError(f"{answers}: {error}") from None
-    say(*(json.dumps(table.to_json(), indent=1) if as_json else str(table)).split("\n"))
+    print_output(*(json.dumps(table.to_json(), indent=1) if as_json else str(table)).split("\n"))
     if wrong:
         more = [f"and {len(wrong) - _FEW} more"] if len(wrong) > _FEW else []
-        tell(*wrong[:_FEW], *more)
+        print_error(*wrong[:_FEW], *more)
     return 0 if table.ok else 1

@@ -66,7 +66,7 @@ class _Output(io.RawIOBase):
         self._hash.update(content)
         return self._file.write(content)
 
-    def say(self, text: str) -> None:
+    def write_text(self, text: str) -> None:
         """Write some text."""
         self.write(text.encode())
 
@@ -103,34 +103,34 @@ def write_part(folder: Path, part: Part) -> list[Written]:
     return [Written(name, file.sha256, contacts) for name, file in files.items()]
 
 
-def _write_passages(part: Part, asked: _Output, truths: _Output, queries: _Output) -> int:
+def _write_passages(part: Part, questions: _Output, truths: _Output, queries: _Output) -> int:
     contacts = 0
     for first in range(0, part.size, CHUNK):
         numbers = range(first, min(first + CHUNK, part.size))
         passages = [make_passage(part.family, number) for number in numbers]
         for k, passage, truth in zip(numbers, passages, answers(passages), strict=True):
             name, touches = f"{part.family}:{k}", truth.time is not None
-            asked.say(question_line(name, passage))
-            truths.say(truth_line(name, truth))
-            queries.say(ccd_query(passage, touches=touches))
+            questions.write_text(question_line(name, passage))
+            truths.write_text(truth_line(name, truth))
+            queries.write_text(ccd_query(passage, touches=touches))
             contacts += touches
     return contacts
 
 
-def _write_scenes(part: Part, asked: _Output, truths: _Output, proofs: _Output) -> int:
+def _write_scenes(part: Part, questions: _Output, truths: _Output, proofs: _Output) -> int:
     contacts = 0
     with tarfile.open(fileobj=proofs, mode="w|", format=tarfile.USTAR_FORMAT) as archive:
         for number in range(part.size):
             question = make_question(part.family, VERSION, number)
             proof = prove(question.scene)
-            asked.say(json.dumps(question.to_json()) + "\n")
+            questions.write_text(json.dumps(question.to_json()) + "\n")
             found, pairs = Truth(None), []
             if proof.contact is not None:
                 contacts += 1
                 pairs = [_incidence(pair.to_json()) for pair in proof.contact.pairs]
                 found = Truth(proof.contact.time, proof.contact.kind, pairs[0] if pairs else None)
-            said = {"id": question.name, **found.to_json()}
-            truths.say(json.dumps({**said, "pairs": pairs} if pairs else said) + "\n")
+            row = {"id": question.name, **found.to_json()}
+            truths.write_text(json.dumps({**row, "pairs": pairs} if pairs else row) + "\n")
             _add(archive, f"{part.family}/{number}.json", proof.scene)
             _add(archive, f"{part.family}/{number}.proof", proof.text)
     return contacts

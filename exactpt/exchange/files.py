@@ -80,24 +80,23 @@ def read_shapes(
     file = Path(path)
     kind, text = _format(file), read_text(file, max_bytes)
 
-    def telling(tell: Callable[[str], None] | None) -> Callable[[str], None] | None:
-        return None if tell is None else lambda line: tell(f"{file}: {line}")
+    def prefixed(report: Callable[[str], None] | None) -> Callable[[str], None] | None:
+        return None if report is None else lambda line: report(f"{file}: {line}")
 
     try:
-        kind = _said(kind, text)
+        kind = _detected_format(kind, text)
         if kind == "scene":
             return loads(text)
         if kind == "mfjson":
-            told = telling(skipped)
-            return mfjson.scene_of_features(text, time=span, holes=holes, skipped=told)
+            return mfjson.scene_of_features(text, time=span, holes=holes, skipped=prefixed(skipped))
         shapes = _shapes_of(kind, text, tolerance)
         return scene_of(
             shapes,
             time=span or (0, 1),
             holes=holes,
             parts=parts,
-            repair=_repair(telling(repaired)),
-            skipped=telling(skipped),
+            repair=_repair(prefixed(repaired)),
+            skipped=prefixed(skipped),
         )
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
@@ -107,12 +106,12 @@ def _seconds(at: Rational | datetime) -> Rational:
     return from_datetime(at) if isinstance(at, datetime) else at
 
 
-def _repair(told: Callable[[str], None] | None) -> Repair | None:
-    if told is None:
+def _repair(report: Callable[[str], None] | None) -> Repair | None:
+    if report is None:
         return None
     from exactpt.exchange.shapely_adapter import mended
 
-    return lambda shape: mended(shape, told)
+    return lambda shape: mended(shape, report)
 
 
 def holds_scene(path: Path, max_bytes: int | None = None) -> bool:
@@ -123,10 +122,12 @@ def holds_scene(path: Path, max_bytes: int | None = None) -> bool:
     """
     try:
         kind = _format(path)
-        return kind == "scene" and _said(kind, read_text(path, max_bytes)) == "scene"
+        return kind == "scene" and _detected_format(kind, read_text(path, max_bytes)) == "scene"
     except InputError as error:
-        told = str(error)
-        raise InputError(told if told.startswith(str(path)) else f"{path}: {told}") from None
+        message = str(error)
+        if not message.startswith(str(path)):
+            message = f"{path}: {message}"
+        raise InputError(message) from None
 
 
 def _format(path: Path) -> Format:
@@ -136,7 +137,7 @@ def _format(path: Path) -> Format:
     return kind
 
 
-def _said(kind: Format, text: str) -> Format:
+def _detected_format(kind: Format, text: str) -> Format:
     """Return the format of a file, by its suffix or, of JSON, by its content."""
     if kind not in ("scene", "geojson"):
         return kind

@@ -156,7 +156,7 @@ def scene_from(
     return scene_of(shapes, time=time, holes=holes, parts=parts, radius=radius)
 
 
-def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
+def mended(shape: Shape, report: Callable[[str], None]) -> list[Shape]:
     """Return the valid polygons that shapely's make_valid makes of a shape that is not one.
 
     Lines and points that it leaves are dropped. Parts that still touch become shapes of their own,
@@ -164,7 +164,7 @@ def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
 
     Args:
         shape: the shape; its points are rounded to doubles.
-        told: called with a line about each repair.
+        report: called with a line about each repair.
 
     Raises:
         InputError: if it is not a polygon, or nothing of it is left.
@@ -191,7 +191,7 @@ def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
     if not apart:
         found = list(found[0].parts)
     what = shapely.is_valid_reason(given)
-    told(
+    report(
         f"{shape.where}: repaired {shorten(shape.name)} ({what}): "
         f"{_size(given)} became {_size(whole)}{'' if apart else ', which touch: bodies each'}"
     )

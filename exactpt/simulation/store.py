@@ -72,8 +72,8 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]
         raise InputError(f"{path}: cannot be read: {reason}") from None
     version = data.pop("exactpt-simulation", None) if isinstance(data, dict) else None
     if version != VERSION:
-        said = shorten(version)
-        raise InputError(f"{path}: this version reads simulations {VERSION}, not {said}")
+        found = shorten(version)
+        raise InputError(f"{path}: this version reads simulations {VERSION}, not {found}")
     if data.pop("sha256", None) != _checksum(data):
         raise InputError(f"{path}: changed since it was saved: its checksum is another one")
     try:

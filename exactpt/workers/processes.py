@@ -106,12 +106,12 @@ def _do(connection: Connection, job: object) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     assert callable(job)  # noqa: S101
 
-    def tell(step: Step) -> None:
+    def report(step: Step) -> None:
         connection.send((False, step))
 
     with contextlib.suppress(EOFError, OSError):
         while True:
-            connection.send((True, job(connection.recv(), tell)))
+            connection.send((True, job(connection.recv(), report)))
 
 
 def results_of(
