@@ -122,7 +122,7 @@ check-cgal: cgal_check/build/cgal_check ## build the independent witness
 
 cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp cgal_check/proof/*.cpp cgal_check/proof/*.hpp) cgal_check/CMakeLists.txt
 	@.ci/apt-install $(PACKAGES)
-	cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release
+	cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release $(CMAKEFLAGS)
 	cmake --build cgal_check/build --parallel $(JOBS)
 
 test-sanitized: $(VENV)/developing ## cgal_check with AddressSanitizer and UBSan: all documents of proofs, 10,000 damaged ones

@@ -3,6 +3,7 @@
 import json
 import random
 import shutil
+import subprocess
 import sys
 from fractions import Fraction
 
@@ -381,6 +382,16 @@ def test_a_build_that_fails_names_the_packages(monkeypatch, tmp_path):
     cmake.rename(tmp_path / "cmake")
     with pytest.raises(InputError, match=r"could not find CGAL; on Debian .* libcgal-dev"):
         build_program(tmp_path / "build")
+
+
+def test_a_warning_of_a_compiler_does_not_end_the_build(tmp_path):
+    """GCC 16 gives one that is wrong, and -Werror made it an error (Debian sid, 2026-11-25)."""
+    options = ["-B", str(tmp_path), "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
+    subprocess.run(["cmake", "-S", str(sources()), *options], check=True, capture_output=True)
+    commands = json.loads((tmp_path / "compile_commands.json").read_text())
+
+    assert len(commands) > 20
+    assert not any("-Werror" in entry["command"] for entry in commands)
 
 
 @pytest.mark.slow
