@@ -36,13 +36,13 @@ def test_all_hooks_pass_on_all_files(repository):
     done = hooks(repository)
 
     assert done.returncode == 0, done.stdout
-    assert done.stdout.count("Passed") == 6
+    assert done.stdout.count("Passed") == 7
 
 
 def test_bad_files_are_found(repository):
-    """A module: unformatted, below its import, of a wrong type; two workflows: schema and rules."""
+    """A module: unformatted, below its import, of a wrong type; two workflows; a misspelt word."""
     bad = {
-        "exactpt/kernel/bad.py": "import exactpt.scene\nx:int = 'a'\n",
+        "exactpt/kernel/bad.py": "import exactpt.scene\nx:int = 'teh'\n",
         ".github/workflows/bad.yml": "on: push\njobs: 3\n",
         ".github/workflows/unpinned.yml": "on: push\npermissions: {}\njobs:\n  a:\n"
         "    runs-on: ubuntu-latest\n    steps:\n      - uses: actions/checkout@main\n",
@@ -54,4 +54,4 @@ def test_bad_files_are_found(repository):
     done = hooks(repository)
 
     assert done.returncode == 1
-    assert done.stdout.count("Failed\n") == 6, done.stdout
+    assert done.stdout.count("Failed\n") == 7, done.stdout
