@@ -212,13 +212,13 @@ class _Witness(Observer):
         self._progress = progress
         self._before: IsolatedRoot | None = None
 
-    def before(self, scene: Scene, tiling: Tiling) -> None:  # noqa: ARG002 - as in `Observer`
+    def on_start(self, scene: Scene, tiling: Tiling) -> None:  # noqa: ARG002 - as in `Observer`
         """Verify the tiling between now and the next event, unless they are simultaneous."""
         following = tiling.next_number()
         if following is not None and tiling.now.compare(following) < 0:
             self.tiling(tiling, rational_between(tiling.now, following))
 
-    def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
+    def on_events(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
         """Verify an event time.
 
         Raises:
@@ -235,7 +235,7 @@ class _Witness(Observer):
             low = tiling.now.canonical_interval()[0]
             raise BudgetExceeded("the budget of the check is used up", low)
 
-    def reached(self, tiling: Tiling) -> None:
+    def on_end(self, tiling: Tiling) -> None:
         """Verify the tiling at the end."""
         self.tiling(tiling, self._end)
 

@@ -77,7 +77,7 @@ class _Audits(Observer):
         self._middle = middle
         self.gaps = 0
 
-    def before(self, scene: Scene, tiling: Tiling) -> None:
+    def on_start(self, scene: Scene, tiling: Tiling) -> None:
         """Audit the tiling between now and the next event."""
         end = tiling.next_number() or AlgebraicNumber(scene._end)
         if tiling.now.compare(end) < 0:
@@ -88,7 +88,7 @@ class _Audits(Observer):
             audit_certificates(tiling)
             self.gaps += 1
 
-    def passed(self, tiling: Tiling) -> None:
+    def on_event_time(self, tiling: Tiling) -> None:
         """Audit the tiling at an event time, if that is rational."""
         if tiling.now.simplified().is_rational:
             audit_now(tiling)

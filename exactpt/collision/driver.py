@@ -29,11 +29,11 @@ if TYPE_CHECKING:
 NOTHING: Final = 0
 """Listen only to the start, the end, and changes of motions."""
 TIMES: Final = 1
-"""Listen to event times too (`Observer.passed`); events are not recorded."""
+"""Listen to event times too (`Observer.on_event_time`); events are not recorded."""
 EVENTS: Final = 2
-"""Listen to the events of each event time too (`Observer.happened`)."""
+"""Listen to the events of each event time too (`Observer.on_events`)."""
 CHANGES: Final = 3
-"""Listen to the changed half-edges too (`Observer.changed`)."""
+"""Listen to the changed half-edges too (`Observer.on_changed_edges`)."""
 
 MANY: Final = 64
 """Number of event times between two checks of the budget, if nothing listens."""
@@ -48,32 +48,32 @@ class Observer:
 
     listens_to: int = TIMES
 
-    def touching(self, scene: Scene) -> None:
-        """Bodies touch at the start; no other method but `finish` is called."""
+    def on_initial_contact(self, scene: Scene) -> None:
+        """Process a contact at the start; no other method but `finish` is called."""
 
-    def before(self, scene: Scene, tiling: Tiling) -> None:
-        """Time is about to pass; the scene is that since the last change of motions."""
+    def on_start(self, scene: Scene, tiling: Tiling) -> None:
+        """Prepare for an advance of the scene, which is the one after the last change of motions."""
 
-    def changed(self, changed: set[HalfEdge] | None) -> None:
+    def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
         """Process an event time, or a time without an event before it, which is now.
 
         Args:
             changed: see `Tiling.changes`.
         """
 
-    def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
+    def on_events(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
         """Process an event time, which is now, with these events."""
 
-    def passed(self, tiling: Tiling) -> None:
+    def on_event_time(self, tiling: Tiling) -> None:
         """Process an event time, which is now."""
 
-    def reached(self, tiling: Tiling) -> None:
+    def on_end(self, tiling: Tiling) -> None:
         """Process the end of a run without another event, which is now."""
 
-    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
         """Process a contact now, which ends the run; the tiling is the one just before."""
 
-    def change(self, t: QQ) -> None:
+    def on_change(self, t: QQ) -> None:
         """Process a change of motions or bodies at a rational time."""
 
     def finish(self) -> None:
@@ -146,7 +146,7 @@ class Driver:
         if overlaps:
             self.touches, self.overlaps = touches, overlaps
             for observer in self.observers:
-                observer.touching(scene)
+                observer.on_initial_contact(scene)
             return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
         self.since = start
         try:
@@ -173,7 +173,7 @@ class Driver:
         """
         tiling, self.touches = self.kinetic, None
         for observer in self.observers:
-            observer.before(self._scene(), tiling)
+            observer.on_start(self._scene(), tiling)
         events: list[TilingEvent] | None = None
         try:
             if level >= EVENTS:
@@ -209,7 +209,7 @@ class Driver:
     def meet(self) -> Contact:
         """End the run with the contact that `advance` has found."""
         for observer in self.observers:
-            observer.met(self.kinetic, self.touches or ())
+            observer.on_contact(self.kinetic, self.touches or ())
         return self.contact_ahead()
 
     def contact_ahead(self) -> Contact:
@@ -220,7 +220,7 @@ class Driver:
         """Continue after a change of motions or bodies at a rational time without a contact."""
         self.tiling, self.since = tiling, t
         for observer in self.observers:
-            observer.change(t)
+            observer.on_change(t)
 
     def spend(self, events: int) -> None:
         """Count events; between two event times, so that the run can go on.
@@ -261,11 +261,11 @@ class Driver:
         changed = tiling.changes() if CHANGES in levels else None
         for level, observer in zip(levels, self.observers, strict=True):
             if level >= CHANGES:
-                observer.changed(changed)
+                observer.on_changed_edges(changed)
             if events is None:
-                observer.reached(tiling)
+                observer.on_end(tiling)
                 continue
             if level >= EVENTS:
-                observer.happened(tiling, events)
+                observer.on_events(tiling, events)
             if level >= TIMES:
-                observer.passed(tiling)
+                observer.on_event_time(tiling)

@@ -146,14 +146,14 @@ class Part(Observer):
         self._last = AlgebraicNumber(nodes.scene._start)
         self._put(self._maker.faces(self.watch.first()))
 
-    def changed(self, changed: set[HalfEdge] | None) -> None:
-        """See `Observer.changed`."""
+    def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.on_changed_edges`."""
         if self._held is None or self._held.time.compare(self.watch.now) < 0:
             self._release()
             self._held = self.watch.step(changed)
 
-    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
-        """See `Observer.met`."""
+    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+        """See `Observer.on_contact`."""
         self._release()
         self._put(self._maker.contact(tiling.now, self.watch.names(), touches))
 

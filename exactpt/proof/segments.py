@@ -62,26 +62,26 @@ class ProofFolder(Observer):
         self._before = CHAIN
         self._part: Part | None = None
 
-    def touching(self, scene: Scene) -> None:
-        """See `Observer.touching`."""
+    def on_initial_contact(self, scene: Scene) -> None:
+        """See `Observer.on_initial_contact`."""
         file = scene_bytes(scene)
         self._write(file, ProofRun(scene, scene_file=file).lines())
 
-    def before(self, scene: Scene, tiling: Tiling) -> None:
-        """See `Observer.before`."""
+    def on_start(self, scene: Scene, tiling: Tiling) -> None:
+        """See `Observer.on_start`."""
         if self._part is None and tiling.now.compare_rational(scene._end) < 0:
             refuse_degrees(scene.bodies)
             self._begin(scene.going_on(scene.bodies, tiling.now._low), tiling)
 
-    def changed(self, changed: set[HalfEdge] | None) -> None:
-        """See `Observer.changed`."""
+    def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.on_changed_edges`."""
         if self._part is not None:
-            self._part.changed(changed)
+            self._part.on_changed_edges(changed)
             if self._part.watch.now.compare_rational(self._end) >= 0:
-                self.change(self._end)
+                self.on_change(self._end)
 
-    def change(self, t: QQ) -> None:
-        """See `Observer.change`."""
+    def on_change(self, t: QQ) -> None:
+        """See `Observer.on_change`."""
         part, self._part = self._part, None
         if part is None:
             return
@@ -91,17 +91,17 @@ class ProofFolder(Observer):
         else:
             self._file.close()
 
-    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
-        """See `Observer.met`."""
+    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+        """See `Observer.on_contact`."""
         part, self._part = self._part, None
         if part is not None:
-            part.met(tiling, touches)
+            part.on_contact(tiling, touches)
             self._keep(self._end)
 
     def finish(self) -> None:
         """See `Observer.finish`."""
         if self._part is not None:
-            self.change(self._part.before_now())
+            self.on_change(self._part.before_now())
 
     def _begin(self, scene: Scene, kinetic: Tiling) -> None:
         """Begin a part, whose lines are in a temporary file until its end is known."""

@@ -114,8 +114,8 @@ class Tracker(Observer):
             EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()
         ]
 
-    def changed(self, changed: set[HalfEdge] | None) -> None:
-        """See `Observer.changed`; the half-edges are for the next update."""
+    def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.on_changed_edges`; the half-edges are for the next update."""
         if changed is None or self._known is None:
             self._known = None
         else:

@@ -23,7 +23,15 @@ ASKED = {
 }
 
 
-METHODS = ("touching", "before", "changed", "happened", "passed", "reached", "met")
+METHODS = (
+    "on_initial_contact",
+    "on_start",
+    "on_changed_edges",
+    "on_events",
+    "on_event_time",
+    "on_end",
+    "on_contact",
+)
 
 
 class Listener(Observer):
@@ -37,9 +45,9 @@ class Listener(Observer):
 
     def hear(self, name, *args):
         self.heard.append(name)
-        if name == "passed":
+        if name == "on_event_time":
             self.times.append(args[0].now)
-        if name == "happened":
+        if name == "on_events":
             self.kinds += [event.kind for event in args[1]]
 
 
@@ -85,10 +93,10 @@ def test_the_tiling_is_asked_for_no_more_than_observers_listen_to(levels, monkey
     assert contact == first_contact(scene, method="pairs")
     for listener in listeners:
         level = listener.listens_to
-        assert ("passed" in listener.heard) == (level >= TIMES)
-        assert ("happened" in listener.heard) == (level >= EVENTS)
-        assert ("changed" in listener.heard) == (level >= CHANGES)
-        assert (listener.heard[-1] == "met") == (contact is not None)
+        assert ("on_event_time" in listener.heard) == (level >= TIMES)
+        assert ("on_events" in listener.heard) == (level >= EVENTS)
+        assert ("on_changed_edges" in listener.heard) == (level >= CHANGES)
+        assert (listener.heard[-1] == "on_contact") == (contact is not None)
 
 
 def test_all_levels_receive_the_same_times_and_events():
@@ -115,7 +123,7 @@ def test_a_contact_at_the_start_has_no_tiling():
     driver = Driver(lambda: scene, observers=[listener])
 
     assert driver.start("lazy") == first_contact(scene)
-    assert (driver.tiling, driver.passed(), listener.heard) == (None, None, ["touching"])
+    assert (driver.tiling, driver.passed(), listener.heard) == (None, None, ["on_initial_contact"])
 
 
 def test_a_time_without_events_is_reached_and_the_run_goes_on():
@@ -125,9 +133,9 @@ def test_a_time_without_events_is_reached_and_the_run_goes_on():
     driver.start("lazy")
 
     assert driver.run(scene.start + 1) is None
-    assert (listener.heard[-1], driver.reached(), driver.passed() <= 1) == ("reached", 1, True)
+    assert (listener.heard[-1], driver.reached(), driver.passed() <= 1) == ("on_end", 1, True)
     assert driver.run(scene.end) == first_contact(scene)
-    assert listener.heard[-1] == "met"
+    assert listener.heard[-1] == "on_contact"
     assert driver.passed() < 3
 
 

@@ -31,7 +31,7 @@ def test_changes_of_the_engine_make_the_film_of_a_comparison_of_all(family, tili
         while steps < 60 * (seed + 1) and (events := driver.advance(scene.end)) is not None:
             if events:
                 steps += 1
-                whole.changed(None)
+                whole.on_changed_edges(None)
                 ours.update(steps)
                 whole.update(steps)
         assert ours.edges == whole.edges
