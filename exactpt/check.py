@@ -212,7 +212,7 @@ class _Witness(Observer):
         self._progress = progress
         self._before: IsolatedRoot | None = None
 
-    def on_start(self, scene: Scene, tiling: Tiling) -> None:  # noqa: ARG002 - as in `Observer`
+    def on_advance(self, scene: Scene, tiling: Tiling) -> None:  # noqa: ARG002 - as in `Observer`
         """Verify the tiling between now and the next event, unless they are simultaneous."""
         following = tiling.next_number()
         if following is not None and tiling.now.compare(following) < 0:

@@ -77,7 +77,7 @@ class _Audits(Observer):
         self._middle = middle
         self.gaps = 0
 
-    def on_start(self, scene: Scene, tiling: Tiling) -> None:
+    def on_advance(self, scene: Scene, tiling: Tiling) -> None:
         """Audit the tiling between now and the next event."""
         end = tiling.next_number() or AlgebraicNumber(scene._end)
         if tiling.now.compare(end) < 0:

@@ -51,8 +51,8 @@ class Observer:
     def on_initial_contact(self, scene: Scene) -> None:
         """Process a contact at the start; no other method but `finish` is called."""
 
-    def on_start(self, scene: Scene, tiling: Tiling) -> None:
-        """Prepare for an advance of the scene, which is the one after the last change of motions."""
+    def on_advance(self, scene: Scene, tiling: Tiling) -> None:
+        """Prepare for an advance; the scene is the one after the last change of motions."""
 
     def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
         """Process an event time, or a time without an event before it, which is now.
@@ -173,7 +173,7 @@ class Driver:
         """
         tiling, self.touches = self.kinetic, None
         for observer in self.observers:
-            observer.on_start(self._scene(), tiling)
+            observer.on_advance(self._scene(), tiling)
         events: list[TilingEvent] | None = None
         try:
             if level >= EVENTS:

@@ -67,8 +67,8 @@ class ProofFolder(Observer):
         file = scene_bytes(scene)
         self._write(file, ProofRun(scene, scene_file=file).lines())
 
-    def on_start(self, scene: Scene, tiling: Tiling) -> None:
-        """See `Observer.on_start`."""
+    def on_advance(self, scene: Scene, tiling: Tiling) -> None:
+        """See `Observer.on_advance`."""
         if self._part is None and tiling.now.compare_rational(scene._end) < 0:
             refuse_degrees(scene.bodies)
             self._begin(scene.going_on(scene.bodies, tiling.now._low), tiling)

@@ -25,7 +25,7 @@ ASKED = {
 
 METHODS = (
     "on_initial_contact",
-    "on_start",
+    "on_advance",
     "on_changed_edges",
     "on_events",
     "on_event_time",
