@@ -16,7 +16,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "crowds": "the first contact of crowds built from arrays and from bodies",
     "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
-    "exponents": "how run time grows, on 32 families of questions at three sizes",
+    "exponents": "how run time grows, on 52 families of questions at three sizes",
     "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",

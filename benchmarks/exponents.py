@@ -19,6 +19,7 @@ from typing import Final, NamedTuple, TypeAlias
 
 from benchmarks.output import Output, Row
 from benchmarks.timing import exponent, timed
+from benchmarks.user_families import USER_FAMILIES
 from exactpt import (
     Affine,
     Body,
@@ -47,12 +48,14 @@ __all__ = ["FAMILIES", "FULL", "QUICK", "Sizes", "run"]
 Point: TypeAlias = tuple[float, float]
 Ask: TypeAlias = "Callable[[], object]"
 
+SHORTEST: Final = 0.02
+"""Seconds that the least size takes, at full size: smaller ones are passed over."""
 LONGEST: Final = 10.0
 """Seconds after which the sizes of a family end."""
 
 
 class Family(NamedTuple):
-    """A family of questions: what makes one of a size, the least size, the exponent of the work."""
+    """A family of questions: makes one of a size, from this size on, with this exponent of work."""
 
     make: Callable[[int], Ask]
     size: int
@@ -87,14 +90,14 @@ def _row(name: str, sizes: Sizes) -> Row:
     family.make(max(2, round(family.size * sizes.share)))()  # the first use imports
     counts: list[int] = []
     seconds: list[float] = []
-    for step in range(sizes.steps):
-        n = max(2, round(family.size * sizes.share * 2**step))
+    n = max(2, round(family.size * sizes.share))
+    while len(counts) < sizes.steps and not (seconds and seconds[-1] > LONGEST):
         ask = family.make(n)
         taken = min(timed(ask)[1] for _ in range(1 if seconds and seconds[-1] > 0.5 else 3))
-        counts.append(n)
-        seconds.append(taken)
-        if taken > LONGEST:
-            break
+        if counts or taken >= SHORTEST * sizes.share:
+            counts.append(n)
+            seconds.append(taken)
+        n *= 2
     return {
         "family": name,
         "sizes": " ".join(map(str, counts)),
@@ -391,4 +394,5 @@ FAMILIES: Final[dict[str, Family]] = {
     "Simulation, all events": Family(_events, 60, 1.5),
     "prove": Family(partial(_of_crowd, prove, 0.06, 1.0), 60),
     "draw, HTML": Family(_drawing, 120, 1.5),
+    **{name: Family(*family) for name, family in USER_FAMILIES.items()},
 }  # fmt: skip
