@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from exactpt.cli.naming import names_in, two_names
 from exactpt.cli.options import (
     QUIET,
     RATIONAL,
@@ -14,7 +13,9 @@ from exactpt.cli.options import (
     bounded,
     max_bytes,
     max_memory,
+    names_in,
     output,
+    two_names,
 )
 from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import print_error

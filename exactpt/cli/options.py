@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,8 +14,7 @@ from click.core import ParameterSource
 
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import MOST_BYTES
-from exactpt.kernel.numbers import QQ, parse_rational
-from exactpt.tiling import catalogue
+from exactpt.kernel.numbers import QQ, parse_rational, shorten
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -67,6 +67,24 @@ class _Seconds(click.FloatRange):
         return seconds
 
 
+class _Tiling(click.Choice):  # type: ignore[type-arg]  # it has a parameter from click 8.2 on
+    """A name in the catalogue of tilings, which is read for other names than "auto"."""
+
+    def __init__(self) -> None:
+        self.case_sensitive = True
+
+    @property
+    def choices(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The names."""
+        from exactpt.tiling.catalogue import known
+
+        return tuple(known())
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name."""
+        return value if value == "auto" else super().convert(value, param, ctx)
+
+
 SCENE_FILE: Final = "exactpt.scene"
 """Key in the context of a command under which its scene file is kept."""
 
@@ -79,7 +97,7 @@ TILING = click.option(
     "--tiling",
     default="auto",
     show_default=True,
-    type=click.Choice(catalogue.known()),
+    type=_Tiling(),
     help="The tiling to maintain.",
 )
 
@@ -178,3 +196,20 @@ def naming_at() -> Iterator[None]:
         yield
     except TimeRangeError as error:
         raise InputError(f"--at: {error}") from None
+
+
+def names_in(text: str, option: str) -> list[str]:
+    """Return the names in a text, separated by commas and perhaps quoted, as in CSV."""
+    try:
+        (names,) = csv.reader([text], strict=True)
+    except (csv.Error, ValueError):
+        raise InputError(f"{option}: quotes that do not match: {shorten(text)}") from None
+    return names
+
+
+def two_names(text: str, option: str) -> tuple[str, str]:
+    """Return the names of two bodies in a text."""
+    names = names_in(text, option)
+    if len(names) != 2:
+        raise InputError(f"{option}: not the names of two bodies: {shorten(text)}")
+    return names[0], names[1]

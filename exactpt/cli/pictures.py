@@ -8,7 +8,6 @@ from typing import Literal
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.naming import two_names
 from exactpt.cli.options import (
     MOMENT,
     QUIET,
@@ -20,6 +19,7 @@ from exactpt.cli.options import (
     max_memory,
     naming_at,
     output,
+    two_names,
 )
 from exactpt.cli.progress import estimating, progress
 from exactpt.cli.terminal import print_output

@@ -11,8 +11,17 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.naming import names_in, two_names
-from exactpt.cli.options import QUIET, RATIONAL, SCENE, TILING, budget, load, max_memory
+from exactpt.cli.options import (
+    QUIET,
+    RATIONAL,
+    SCENE,
+    TILING,
+    budget,
+    load,
+    max_memory,
+    names_in,
+    two_names,
+)
 from exactpt.cli.terminal import drop_standard_output, print_output
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError

@@ -8,19 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.simple import edges
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
-
-
-def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
-    """Return the edges of a body as pairs of vertices; edge i starts at vertex i.
-
-    A point has none, a segment one (closed or not), a polygon as many as it has vertices.
-    """
-    pairs = [(i, i + 1) for i in range(size - 1)]
-    if closed and size > 2:
-        pairs.append((size - 1, 0))
-    return pairs
 
 
 def signed_area2(points: Sequence[Point]) -> QQ:

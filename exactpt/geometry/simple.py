@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Final
 
-from exactpt.geometry.polygon import edges
 from exactpt.kernel.rounding import SLACK, TINY, U
 
 Edge = tuple[float, float, float, float]
@@ -21,6 +20,17 @@ Edge = tuple[float, float, float, float]
 K: Final = 8.0 * U
 FEW: Final = 20
 """Maximum number of edges of which all pairs are tested without boxes."""
+
+
+def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
+    """Return the edges of a body as pairs of vertices; edge i starts at vertex i.
+
+    A point has none, a segment one (closed or not), a polygon as many as it has vertices.
+    """
+    pairs = [(i, i + 1) for i in range(size - 1)]
+    if closed and size > 2:
+        pairs.append((size - 1, 0))
+    return pairs
 
 
 def is_surely_simple(

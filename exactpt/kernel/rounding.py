@@ -52,6 +52,13 @@ SMALL: Final = 2.0**-300
 """Smallest divisor of an error in any filter."""
 TINY: Final = 2.0**-500
 """Absolute error that covers all underflow."""
+SMALLEST: Final = 2.0**-300
+LARGEST: Final = 2.0**100
+"""Range of the size of nonzero coefficients that the filters accept.
+
+Certificates are sums of products of two differences, or of three coefficients. A difference
+of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
+"""
 FAR: Final = 2.0**20
 """Ratio of distance from the origin to extent above which doubles are relative to a point."""
 

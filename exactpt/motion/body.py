@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
-from exactpt.geometry.polygon import edges
+from exactpt.geometry.simple import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import (
     QQ,
@@ -31,11 +31,12 @@ from exactpt.motion.motions import (
     Position,
     made,
 )
-from exactpt.motion.rings import Outline, PartLike, Parts, parts_given, read_rings, ring_edges
 from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
+
+    from exactpt.motion.rings import Outline, PartLike, Parts
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -158,6 +159,8 @@ class Body:
             raise InputError("an open chain has neither holes nor parts")
         if holes and vertices is None:
             raise InputError("holes are for a body of vertices; a part has holes of its own")
+        from exactpt.motion.rings import read_rings
+
         self._shape, self._parts = read_rings(vertices, holes, parts)
 
     @classmethod
@@ -238,6 +241,8 @@ class Body:
         if self._parts is None:
             body = Body(self.name, points, closed=self.closed, radius=str(self._radius))
         else:
+            from exactpt.motion.rings import parts_given
+
             given = parts_given(self._parts, points)
             body = Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
         body._properties = self._properties
@@ -292,6 +297,8 @@ class Body:
     def edges(self) -> list[tuple[int, int]]:
         """The edges as pairs of vertices; edge i starts at vertex i, and a point has none."""
         if self._parts is not None:
+            from exactpt.motion.rings import ring_edges
+
             return ring_edges(self._parts)
         return edges(self.size, closed=self.closed)
 
@@ -402,6 +409,8 @@ class Body:
             options["properties"] = self._properties
         given = self._shape.given()
         if self._parts is not None:
+            from exactpt.motion.rings import parts_given
+
             options |= parts_given(self._parts, given["vertices"])
             return made, (Body, (self.name,), options)
         return made, (Body, (self.name,), given | options)

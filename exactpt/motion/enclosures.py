@@ -13,9 +13,9 @@ import numpy as np
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
-from exactpt.kernel.rounding import U
+from exactpt.kernel.rounding import LARGEST, SMALLEST, U
 from exactpt.motion.frame import Frame, binary_exponent, combined
-from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, constant_error, translated
+from exactpt.motion.image import Arm, Image, constant_error, translated
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:

@@ -8,18 +8,11 @@ from typing import TYPE_CHECKING, Final, final
 from mypy_extensions import mypyc_attr
 
 from exactpt.kernel.error_free import is_exact_sum
-from exactpt.kernel.rounding import U
+from exactpt.kernel.rounding import LARGEST, SMALLEST, U
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-SMALLEST: Final = 2.0**-300
-LARGEST: Final = 2.0**100
-"""Range of the size of nonzero coefficients that the filters accept.
-
-Certificates are sums of products of two differences, or of three coefficients. A difference
-of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
-"""
 
 CANCELLING: Final = 64.0
 """Sums of terms that are larger by this factor, and not exact, lose too many digits."""

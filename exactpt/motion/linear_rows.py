@@ -16,9 +16,8 @@ from exactpt.geometry.ragged import Flags, spread
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.kernel.rounding import TINY, U
+from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.motion.frame import Frame, frame_for
-from exactpt.motion.image import LARGEST, SMALLEST
 from exactpt.motion.motions import Translation
 from exactpt.motion.ring_order import turns_left
 

@@ -153,6 +153,17 @@ class Straight:
         )
 
 
+class Path(NamedTuple):
+    """The relative motion c + w t of the vertices of one body, off by at most the errors."""
+
+    cx: float
+    cy: float
+    wx: float
+    wy: float
+    c_error: float
+    w_error: float
+
+
 def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float, float]:
     """Return the coefficients of a polynomial of degree at most 1, and their errors.
 

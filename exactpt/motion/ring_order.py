@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.geometry.simple import turn_of_doubles
 from exactpt.kernel.numbers import QQ
 
@@ -46,6 +45,8 @@ def turns_left(body: Body, ring: range, t: QQ) -> bool:
         turn = turn_of_doubles(xs[some], ys[some], is_exact=is_exact)
         if turn:
             return turn > 0
+    from exactpt.geometry.polygon import is_counter_clockwise
+
     return is_counter_clockwise(body._at(t)[ring.start : ring.stop])
 
 

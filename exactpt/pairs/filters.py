@@ -28,9 +28,8 @@ from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.incidence import Touch
-from exactpt.motion.outline import Outline, Straight
+from exactpt.motion.outline import Outline, Path, Straight
 from exactpt.pairs.rational import Candidate, Span
-from exactpt.pairs.vertex_filter import Path, vertex_candidates
 
 U2: Final = 2.0 * U
 U4: Final = 4.0 * U
@@ -72,6 +71,8 @@ def candidates_of(
     high = _collect(b, a, back, limits, candidates, distance, 1)
     candidates = [candidate for candidate in candidates if candidate.low <= high]
     if distance:
+        from exactpt.pairs.vertex_filter import vertex_candidates
+
         candidates += vertex_candidates(a, b, path, low, high, distance)
     candidates.sort()
     return candidates

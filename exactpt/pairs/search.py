@@ -28,7 +28,6 @@ from exactpt.pairs.pieces import (
     linear_pieces,
 )
 from exactpt.pairs.rational import Earliest, Meeting, Span, span_of
-from exactpt.pairs.selection import groups_of
 from exactpt.pairs.two_pieces import first_meeting
 from exactpt.scene.scene import Scene
 
@@ -57,12 +56,16 @@ class LinearSearch:
         self,
         scene: Scene,
         rows: ScenePieces,
-        ignoring: Iterable[Collection[str]] = (),
+        ignoring: Collection[Collection[str]] = (),
         max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
         self._rows = rows
-        self._group = groups_of(scene, ignoring)
+        self._group = list(range(len(scene.bodies)))
+        if ignoring or isinstance(ignoring, str):
+            from exactpt.pairs.selection import groups_of
+
+            self._group = groups_of(scene, ignoring)
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._search = _Search(contact_distance, self._deadline)
         self._is_apart = False  # whether it is known that no two bodies touch at the start

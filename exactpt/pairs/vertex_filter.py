@@ -13,22 +13,11 @@ from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.incidence import Touch
-from exactpt.motion.outline import Straight
+from exactpt.motion.outline import Path, Straight
 from exactpt.pairs.rational import Candidate
 
 K: Final = 16.0 * U
 """Relative bound on the rounding of sums of up to eight terms, and of products of two."""
-
-
-class Path(NamedTuple):
-    """The relative motion c + w t of the vertices of one body, off by at most the errors."""
-
-    cx: float
-    cy: float
-    wx: float
-    wy: float
-    c_error: float
-    w_error: float
 
 
 class _Range(NamedTuple):

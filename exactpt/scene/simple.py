@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from exactpt.errors import InputError
-from exactpt.geometry.polygon import contains, first_touch, signed_area2
-from exactpt.geometry.predicates import Point
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.outline import outline_at
+
+if TYPE_CHECKING:
+    from exactpt.geometry.predicates import Point
 
 
 def check_simple(body: Body, start: QQ) -> None:
@@ -29,6 +31,8 @@ def check_simple(body: Body, start: QQ) -> None:
         and is_surely_simple(shape.xs, shape.ys, closed=body.closed, error=shape.error)
     ):
         return
+    from exactpt.geometry.polygon import first_touch, signed_area2
+
     points = body._at(start)
     touch = first_touch(points, body.edges)
     if touch is not None:
@@ -65,6 +69,7 @@ def _not_simple(
 def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     """Check that disjoint rings are outlines and holes of disjoint parts."""
     from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+    from exactpt.geometry.polygon import contains
 
     rings = [ring for rings in body.parts for ring in rings]
     parts = [k for k, rings in enumerate(body.parts) for _ in rings]
