@@ -273,11 +273,11 @@ def _closest(n: int) -> Ask:
     points = [(coordinate(), coordinate()) for _ in range(n)]
 
     def asked() -> object:
-        queue = CertificateQueue(0, 8)
+        certificate_queue = CertificateQueue(0, 8)
         for i, point in enumerate(points[1:]):
-            queue.watch(i, squared_distance(points[0], point) - Polynomial([900]))
+            certificate_queue.watch(i, squared_distance(points[0], point) - Polynomial([900]))
         failed = 0
-        while gone := queue.advance():
+        while gone := certificate_queue.advance():
             failed += len(gone)
         return failed
 

@@ -60,12 +60,12 @@ def receivers(path):
 
 
 def test_only_the_driver_advances_a_tiling():
-    """A tiling is advanced in driver.py; elsewhere the receiver of ``advance`` is a driver."""
+    """A tiling is advanced in driver.py; else ``advance`` is a driver's, or a public one."""
     paths = [p for room in ("exactpt", "fuzz", "benchmarks") for p in (ROOT / room).rglob("*.py")]
     others = [(p.name, name) for p in paths if p != DRIVER for name in receivers(p)]
 
     assert set(receivers(DRIVER)) == {"self", "tiling"}
-    assert {name for _, name in others} == {"driver"}, others
+    assert {name for _, name in others} <= {"driver", "certificate_queue"}, others
 
 
 @pytest.mark.plain
