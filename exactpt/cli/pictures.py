@@ -60,11 +60,8 @@ from exactpt.kernel.numbers import QQ
     default=0,
     help="Add the path of each moving body and so many faint poses (pictures).",
 )
-@click.option("--seconds", type=RATIONAL, default="8", show_default=True, help="Length of a film.")
-@click.option(
-    "--fps", type=click.IntRange(1, 100), default=20, show_default=True,
-    help="Frames of a film in a second.",
-)  # fmt: skip
+@click.option("--seconds", type=RATIONAL, help="Length of a film.  [default: 8]")
+@click.option("--fps", type=click.IntRange(1, 100), help="Its frames in a second.  [default: 20]")
 @QUIET
 @TILING
 @click.option("--no-tiling", is_flag=True, help="Draw the bodies alone.")
@@ -78,8 +75,8 @@ def draw(
     below: QQ | None,
     legend: bool,
     poses: int,
-    seconds: QQ,
-    fps: int,
+    seconds: QQ | None,
+    fps: int | None,
     quiet: bool,
     tiling: str,
     no_tiling: bool,

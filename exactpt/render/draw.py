@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
+from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import show
 from exactpt.pairs.surroundings import clearance
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.marked import film_of_run
-from exactpt.render.movie import RATE, SECONDS, write_movie
+from exactpt.render.movie import write_movie
 from exactpt.render.page import page_of
 from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
@@ -43,8 +44,8 @@ def draw(
     below: QQ | None = None,
     legend: bool = False,
     poses: int = 0,
-    seconds: Rational = SECONDS,
-    fps: int = RATE,
+    seconds: Rational | None = None,
+    fps: int | None = None,
     max_events: int | None = None,
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
@@ -65,6 +66,8 @@ def draw(
     ending = _ending(path)
     if (legend or poses) and (gap is not None or ending not in (".svg", ".png")):
         raise InputError(f"{path}: a legend and poses are for a picture of bodies")
+    if ending not in MOVIES and (seconds, fps) != (None, None):
+        raise InputError(f"{path}: seconds and fps are for a film, {' or '.join(MOVIES)}")
     if poses < 0:
         raise InputError(f"poses: not a number of them: {poses}")
     if below is not None and (gap is None or below < 0):
@@ -72,20 +75,21 @@ def draw(
     if ending in MOVIES and (at is not None or gap is not None):
         raise InputError(f"{path}: a film has all times, and no plot")
     if ending == ".html" or ending in MOVIES:
-        film = film_of(
-            scene,
-            tiling=tiling,
-            max_events=max_events,
-            max_seconds=max_seconds,
-            reached=reached,
-        )
-        if ending in MOVIES:
-            write_movie(film, path, theme=_paper(theme), seconds=seconds, fps=fps, done=done)
-            return
-        first = _shown_first(film, at)
-        distance = None if gap is None else clearance(_shown(film), *gap)
-        page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance)
-        write_atomically(path, page)
+        with Budget(None, max_seconds).held():  # frames take longer than most runs
+            film = film_of(
+                scene,
+                tiling=tiling,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                reached=reached,
+            )
+            if ending in MOVIES:
+                write_movie(film, path, theme=_paper(theme), seconds=seconds, fps=fps, done=done)
+                return
+            first = _shown_first(film, at)
+            distance = None if gap is None else clearance(_shown(film), *gap)
+            page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance)
+            write_atomically(path, page)
         return
     light = _paper(theme) if ending == ".png" else theme
     if gap is not None:

@@ -1,29 +1,27 @@
-"""Films as GIF or MP4: frames of a film at equal distances in time, written by imageio."""
+"""Films as GIF or MP4: frames of a film at equal distances in time, drawn by Pillow."""
 
 from __future__ import annotations
 
-import io
-from itertools import pairwise
+from contextlib import closing
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Final
-
-from numpy import array
+from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
-from exactpt.files import write_atomically
+from exactpt.files import write_atomically, writing
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.render.fixed import near
 from exactpt.render.frame import Frame, Line, Shape, Tile, marks_of
 from exactpt.render.palette import body_colour
-from exactpt.render.png import png_of
-from exactpt.render.svg import svg_of
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
-    from types import ModuleType
+
+    from PIL.Image import Image
 
     from exactpt.render.film import Film
 
@@ -48,8 +46,8 @@ def write_movie(
     path: Path,
     *,
     theme: str = "light",
-    seconds: Rational = SECONDS,
-    fps: int = RATE,
+    seconds: Rational | None = None,
+    fps: int | None = None,
     done: Callable[[int, int], None] | None = None,
 ) -> None:
     """Write a film as ``.gif`` or ``.mp4``, of the same length whatever its time span.
@@ -58,82 +56,94 @@ def write_movie(
         film: the run.
         path: the file; it is complete or not there.
         theme: "light" or "dark".
-        seconds: the length of the film, before its last frame stays for a second.
-        fps: frames in a second; GIF players show at most 50.
+        seconds: the length of the film (`SECONDS`), before its last frame stays for a second.
+        fps: frames in a second (`RATE`); GIF players show at most 50.
         done: called with the number of frames that are drawn, and of all.
 
     Raises:
-        InputError: if imageio, its ffmpeg or resvg is not installed; the message has the command to
+        InputError: if Pillow or imageio-ffmpeg is not installed; the message has the command to
             install them. If there are no frames, or more than 100,000.
     """
-    count = round(rational(seconds) * rational(fps))
+    fps = RATE if fps is None else fps
+    count = round(rational(SECONDS if seconds is None else seconds) * rational(fps))
     if not (0 < count < MOST and fps >= 1):
         raise InputError(f"{path}: a film has from 1 to {MOST} frames, and 1 or more in a second")
-    imageio = _imageio(path)
-    images = _images(film, count, theme, done)
-    with TemporaryDirectory() as folder:
-        made = Path(folder) / f"film{path.suffix.lower()}"
-        if made.suffix == ".gif":
-            some = [_image(frame, theme) for frame in frames_of(film, SAMPLES)]
-            _write_gif(images, some, made, fps)
+    try:
+        from exactpt.render.raster import image_of
+
+        images = (image_of(frame, theme) for frame in frames_of(film, count))
+        told = _telling(images, count + 1, done)
+        if path.suffix.lower() == ".gif":
+            some = [image_of(frame, theme) for frame in frames_of(film, SAMPLES)]
+            _write_gif(told, some, path, fps)
         else:
-            with imageio.get_writer(made, fps=fps, macro_block_size=2) as writer:
-                last = None
-                for last in map(array, images):
-                    writer.append_data(last)
-                for _ in range(round(REST * fps) - 1):
-                    writer.append_data(last)
+            _write_mp4(told, path, fps)
+    except ImportError as error:
+        raise InputError(
+            f"GIF and MP4 need the library {error.name}, which is not installed: "
+            "pip install 'exactpt[film]' (SVG and HTML need nothing)"
+        ) from None
+
+
+def _telling(
+    images: Iterable[Image], count: int, done: Callable[[int, int], None] | None
+) -> Iterator[Image]:
+    for k, image in enumerate(images, 1):
+        yield image
+        if done is not None:
+            done(k, count)
+
+
+def _write_mp4(images: Iterator[Image], path: Path, fps: int) -> None:
+    from imageio_ffmpeg import write_frames
+
+    image = next(images)
+    with TemporaryDirectory() as folder:
+        made = Path(folder) / "film.mp4"
+        with closing(write_frames(made, image.size, fps=fps, macro_block_size=2)) as film:
+            film.send(None)
+            film.send(image.tobytes())
+            for image in images:
+                film.send(image.tobytes())
+            for _ in range(round(REST * fps) - 1):
+                film.send(image.tobytes())
         write_atomically(path, made.read_bytes())
 
 
-def _image(frame: Frame, theme: str) -> Any:  # noqa: ANN401 - an image of Pillow
-    """Return a frame as an image of an even width and height, as encoders want it."""
-    from PIL import Image
-
-    image = Image.open(io.BytesIO(png_of(svg_of(frame, theme=theme), zoom=1))).convert("RGB")
-    return image.crop((0, 0, image.width // 2 * 2, image.height // 2 * 2))
-
-
-def _images(
-    film: Film, count: int, theme: str, done: Callable[[int, int], None] | None
-) -> Iterator[Any]:
-    for k, frame in enumerate(frames_of(film, count), 1):
-        yield _image(frame, theme)
-        if done is not None:
-            done(k, count + 1)
-
-
-def _write_gif(images: Iterable[Any], some: Sequence[Any], path: Path, fps: int) -> None:
+def _write_gif(images: Iterable[Image], some: Sequence[Image], path: Path, fps: int) -> None:
     """Write the images with the colours of some of them: all have the same bodies and tints.
 
-    Pillow takes 30 ms to choose colours for an image, and 1 ms to map it to known ones.
+    Pillow takes 30 ms to choose colours for an image, and 1 ms to map it to known ones. Of each
+    image the file has the rectangle that differs from the one before, and memory has two images.
     """
-    from PIL import Image
+    from PIL import Image, ImageChops
+    from PIL.GifImagePlugin import getdata, getheader
 
     width, height = some[0].size
     together = Image.new("RGB", (width, height * len(some)))
     for k, image in enumerate(some):
         together.paste(image, (0, k * height))
     colours = together.quantize(COLOURS)
-    flat = [image.quantize(palette=colours, dither=Image.Dither.NONE) for image in images]
-    ends = [round(100 / fps * k) for k in range(len(flat))]  # a GIF counts hundredths of a second
-    rest = [10 * (end - start) for start, end in pairwise(ends)] + [1000 * REST]
-    flat[0].save(path, save_all=True, append_images=flat[1:], duration=rest, loop=0, disposal=1)
+    flat = (image.quantize(palette=colours, dither=Image.Dither.NONE) for image in images)
+    before = next(flat)
+    with writing(path) as write:
+        for part in getheader(before.copy(), info={"loop": 0, "optimize": False})[0]:
+            write(part)
+        box = (0, 0, width, height)
+        for k, now in enumerate(chain(flat, [None])):
+            # A GIF counts hundredths of a second.
+            rest = REST * 1000 if now is None else 10 * _hundredths(k, fps)
+            for part in getdata(before.crop(box), box[:2], duration=rest, disposal=1):
+                write(part)
+            if now is not None:
+                box = ImageChops.difference(now, before).getbbox() or (0, 0, 1, 1)
+                before = now
+        write(b";")
 
 
-def _imageio(path: Path) -> ModuleType:
-    try:
-        import imageio.v2 as imageio
-
-        if path.suffix.lower() == ".mp4":
-            import imageio_ffmpeg  # noqa: F401
-    except ImportError as error:
-        raise InputError(
-            f"GIF and MP4 need the library {error.name}, which is not installed: "
-            "pip install 'exactpt[film]' (SVG and HTML need nothing)"
-        ) from None
-    module: ModuleType = imageio
-    return module
+def _hundredths(k: int, fps: int) -> int:
+    """Return how long frame k stays, so that the times of all frames are rounded together."""
+    return round(100 / fps * (k + 1)) - round(100 / fps * k)
 
 
 def frames_of(film: Film, count: int) -> Iterator[Frame]:
@@ -143,6 +153,7 @@ def frames_of(film: Film, count: int) -> Iterator[Frame]:
     window = _window(film, [start + (end - start) * k / _WHOLE for k in range(_WHOLE + 1)])
     step = 0
     for k in range(count + 1):
+        ask()
         t = start + (end - start) * k / count
         last = k == count
         while step < len(film.steps) and (last or film.steps[step].time.compare_rational(t) <= 0):

@@ -351,8 +351,8 @@ class Scene:
         below: Rational | None = None,
         legend: bool = False,
         poses: int = 0,
-        seconds: Rational = 8,
-        fps: int = 20,
+        seconds: Rational | None = None,
+        fps: int | None = None,
     ) -> None:
         """Draw the scene: a picture (.svg, .png), an animation (.html) or a film (.gif, .mp4).
 
@@ -370,8 +370,8 @@ class Scene:
             legend: whether a picture has a scale bar, and the names of bodies beside it.
             poses: number of faint poses of each moving body in a picture, at equal distances in
                 time over the whole span, with the path of the mean of its vertices.
-            seconds: the length of a film, before its last frame stays for a second.
-            fps: frames of a film in a second.
+            seconds: the length of a film (8), before its last frame stays for a second.
+            fps: frames of a film in a second (20).
 
         Raises:
             InputError: if the suffix is unknown, a library is missing, or there is no contact

@@ -56,6 +56,8 @@ def test_draw(scene, at, ending):
         (["-o", "x.html", "--at", "4"], "the animation runs from t = 0 to t = 3.0"),
         (["-o", "x.svg", "--at", "soon"], "not a number: 'soon'"),
         (["-o", "nowhere/x.svg"], "cannot be written"),
+        (["-o", "x.svg", "--seconds", "2"], "seconds and fps are for a film, .gif or .mp4"),
+        (["-o", "x.html", "--fps", "20"], "seconds and fps are for a film, .gif or .mp4"),
         ([], "Missing option '-o'"),
     ],
 )

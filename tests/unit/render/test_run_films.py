@@ -1,16 +1,21 @@
 """Films of runs that go on, and films as GIF and MP4."""
 
+import io
+
 import pytest
 from render_scenes import small
 
-from exactpt import Body, Bounce, InputError, Scene, Simulation, Translation
+from exactpt import Body, Bounce, BudgetExceeded, InputError, Scene, Simulation, Translation
+from exactpt.kernel import budget
 from exactpt.kernel.numbers import QQ
 from exactpt.render import draw as draw_module
-from exactpt.render import movie
+from exactpt.render import movie, raster
 from exactpt.render.data import data_of
 from exactpt.render.film import film_of
 from exactpt.render.marked import film_of_run
 from exactpt.render.movie import frames_of
+from exactpt.render.png import png_of
+from exactpt.render.svg import svg_of
 
 
 def run(*, guest):
@@ -78,8 +83,7 @@ def test_frames_are_those_of_the_film():
 @pytest.mark.long
 @pytest.mark.parametrize("ending, start", [(".gif", b"GIF89a"), (".mp4", b"ftyp")])
 def test_a_film_as_a_file(tmp_path, ending, start):
-    pytest.importorskip("resvg_py")
-    iio = pytest.importorskip("imageio.v3")
+    pil = pytest.importorskip("PIL.Image")
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
     path, told = tmp_path / f"film{ending}", []
 
@@ -91,9 +95,11 @@ def test_a_film_as_a_file(tmp_path, ending, start):
     data = path.read_bytes()
     assert data.startswith(start) or data[4:8] == start
     if ending == ".gif":
-        frames = iio.imread(path)
-        assert len(frames) == movie.RATE + 1  # the last one is shown for longer
-        assert (frames[0] != frames[movie.RATE]).any()
+        with pil.open(path) as made:
+            assert made.n_frames == movie.RATE + 1  # the last one is shown for longer
+            first = made.convert("RGB").tobytes()
+            made.seek(movie.RATE)
+            assert made.convert("RGB").tobytes() != first
     else:
         assert ffmpeg.count_frames_and_secs(path) == (40, 2.0)
     assert list(tmp_path.iterdir()) == [path]
@@ -116,10 +122,66 @@ def test_bug_a_gif_of_30_frames_in_a_second_was_shorter_than_its_seconds(tmp_pat
     assert max(shown[:-1]) - min(shown[:-1]) <= 10
 
 
+def test_a_gif_that_stores_changes_alone_shows_every_pixel(tmp_path):
+    pil = pytest.importorskip("PIL.Image")
+    images = [pil.new("RGB", (40, 30), "white") for _ in range(6)]
+    for k, image in enumerate(images):
+        image.paste((200, 40 * (k // 2), 0), (3 * k, 2, 3 * k + 9, 20))
+
+    movie._write_gif(iter(images), images, tmp_path / "film.gif", 20)
+
+    with pil.open(tmp_path / "film.gif") as film:
+        assert film.n_frames == len(images)
+        for k, image in enumerate(images):
+            film.seek(k)
+            assert film.convert("RGB").tobytes() == image.tobytes()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_frames_of_a_film_look_like_their_svg_pictures(theme):
+    """One pixel in 250 differs by three eighths of the scale: edges have other half-tones."""
+    pytest.importorskip("resvg_py")
+    pil, chops = pytest.importorskip("PIL.Image"), pytest.importorskip("PIL.ImageChops")
+    bodies = [
+        Body("holed", [(0, 0), (9, 0), (9, 9), (0, 9)], holes=[[(2, 2), (2, 7), (7, 7), (7, 2)]]),
+        Body("round", [(12, 1), (15, 1), (13, 3)], radius="1/2"),
+        Body("disc", [(13, 7)], radius=1),
+        Body("point", [(17, 8)]),
+        Body("chain", [(17, 0), (18, 3), (17, 5)], closed=False),
+        Body("inside", [(4, 4), (5, 4), (5, 5)], Translation([0, 1], [0])),
+    ]
+    scene = Scene(bodies, time=(0, 9))
+    films = [film_of(scene), film_of(Scene(b for b in bodies if not b.radius))]
+    for film in films:
+        *_, frame = frames_of(film, 4)
+        image = raster.image_of(frame, theme)
+        png = png_of(svg_of(frame, theme=theme), zoom=1)
+        below = (0, 60, *image.size)  # the captions have other fonts
+        with pil.open(io.BytesIO(png)) as other:
+            apart = chops.difference(image.crop(below), other.convert("RGB").crop(below))
+        assert sum(apart.convert("L").histogram()[96:]) < image.width * image.height / 250
+
+
 @pytest.mark.parametrize("options", [{"seconds": 0}, {"fps": 0}, {"seconds": 10**5}])
 def test_films_without_frames_are_refused(tmp_path, options):
     with pytest.raises(InputError, match="a film has from 1 to 100000 frames"):
         small().draw(tmp_path / "film.gif", **options)
+
+
+@pytest.mark.parametrize("ending", [".gif", ".mp4"])
+def test_bug_the_frames_of_a_film_had_no_time_limit(tmp_path, ending):
+    pytest.importorskip("imageio_ffmpeg")
+    told = []
+
+    def done(k, count):
+        told.append((k, count))
+        budget._LIMITS.look = budget._LIMITS.deadline = 0.0
+
+    with pytest.raises(BudgetExceeded, match="the time is used up"):
+        draw_module.draw(small(), tmp_path / f"x{ending}", max_seconds=1000, done=done)
+    assert told == [(1, 161)]
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_run_as_a_page_and_as_a_picture(tmp_path):
@@ -135,8 +197,8 @@ def test_a_run_as_a_page_and_as_a_picture(tmp_path):
         Simulation(small()).draw(tmp_path / "other.html")
 
 
-def test_without_imageio(tmp_path, monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "imageio.v2", None)
+def test_without_pillow(tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "PIL", None)
     with pytest.raises(InputError, match=r"pip install 'exactpt\[film\]'"):
         small().draw(tmp_path / "film.gif")
     with pytest.raises(InputError, match="a film has all times"):
