@@ -48,6 +48,7 @@ NAMES = [
     "need",
     "number",
     "keys",
+    "check_json",
     "entries",
     "polynomial",
     "degree",

@@ -535,6 +535,17 @@ def entries(data: Json, length: int | None = None) -> list[Json]:
     return list(data)
 
 
+def check_json(data: Json, levels: int) -> None:
+    """Check a value that has no meaning here, and how deep it is."""
+    need(not isinstance(data, float), "a number that JSON has not:", data)
+    is_text = not isinstance(data, str) or not re.search("[\ud800-\udfff]", data)
+    need(is_text, "an unpaired surrogate:", data)
+    if isinstance(data, (dict, list)):
+        need(levels, "nested too deeply:", None)
+        for value in [*data, *data.values()] if isinstance(data, dict) else data:
+            check_json(value, levels - 1)
+
+
 def polynomial(data: Json) -> Poly:
     """Return the polynomial that a list of numbers is."""
     return Poly([number(c) for c in entries(data)])
@@ -612,7 +623,7 @@ class Body:
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
         shape = "vertices", "keyframes", "parts"
-        body = keys(data, ["name"], ["motion", "closed", "holes", "radius", *shape])
+        body = keys(data, ["name"], ["motion", "closed", "holes", "radius", "properties", *shape])
         need(sum(key in body for key in shape) == 1, "vertices or keyframes or parts:", data)
         need("holes" not in body or "vertices" in body, "holes without vertices:", data)
         self.name, closed = body["name"], body.get("closed", True)
@@ -621,6 +632,8 @@ class Body:
         need(isinstance(closed, bool), "closed:", closed)
         self.radius = number(body.get("radius", "0"))
         need(self.radius >= 0, "a radius:", body.get("radius"))
+        need(isinstance(body.get("properties", {}), dict), "properties:", self.name)
+        check_json(body.get("properties"), 29)
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
         need(parts or "parts" not in body, "no parts:", data)
         rings = [

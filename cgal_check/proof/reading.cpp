@@ -420,7 +420,11 @@ const Json* member(const Json& json, std::string_view key) {
 }
 
 Body read_body(const Json& json, int first, const Rational& start) {
-  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts", "radius"});
+  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts", "radius",
+                    "properties"});
+  const Json* properties = json.find("properties");
+  if (properties && properties->kind != Json::Kind::object)
+    throw NoProof("the scene has properties that are no object");
   Body body;
   const Json* name = member(json, "name");
   if (name->kind != Json::Kind::text || name->text.empty())

@@ -8,14 +8,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from math import inf
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded, rounded_rings, together
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import shorten
-from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_json, shown
+from exactpt.scene.json_values import (
+    Json,
+    Number,
+    a_list,
+    exact_number,
+    parse_json,
+    plain,
+    shown,
+)
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
@@ -31,8 +38,6 @@ TYPES: Final = {
     *(f"Multi{kind}" for kind in _PARTS),
 }
 """Possible values of the key "type" of a GeoJSON object."""
-LONGEST: Final = 4000
-"""Number of digits from which on an integer stays a text, as Python reads no longer ones."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
 
@@ -90,18 +95,8 @@ def _of_feature(data: Json, where: str) -> Iterator[Shape]:
 def properties_of(feature: dict[str, Json]) -> dict[str, object] | None:
     """Return the properties of a feature with numbers of Python; None if it has none."""
     properties = feature.get("properties")
-    found = _plain(properties) if isinstance(properties, dict) else None
+    found = plain(properties) if isinstance(properties, dict) else None
     return found if isinstance(found, dict) else None
-
-
-def _plain(data: Json) -> object:
-    if isinstance(data, Number):
-        digits = data.removeprefix("-")
-        number = int(data) if digits.isdigit() and len(digits) < LONGEST else float(data)
-        return str(data) if number in (inf, -inf) else number
-    if isinstance(data, dict):
-        return {key: _plain(value) for key, value in data.items()}
-    return [_plain(value) for value in data] if isinstance(data, list) else data
 
 
 def named(name: str, properties: Mapping[str, object] | None) -> dict[str, object]:

@@ -269,7 +269,7 @@ class Body:
         """A copy of the data that come with the body and its copies of another motion or radius.
 
         `read_shapes` keeps those of GeoJSON and MF-JSON features, and `write_shapes` writes them.
-        They have no part in equality, and are in no scene file.
+        Scene files keep those that are JSON. They have no part in equality.
         """
         return dict(self._properties or {})
 

@@ -30,6 +30,7 @@ from exactpt.scene.json_values import (
     an_object,
     exact_number,
     parse_json,
+    properties_in,
     shown,
 )
 from exactpt.scene.scene import Scene
@@ -89,7 +90,16 @@ def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
-    allowed = {"vertices", "motion", "closed", "keyframes", "radius", "holes", "parts"}
+    allowed = {
+        "vertices",
+        "motion",
+        "closed",
+        "keyframes",
+        "radius",
+        "holes",
+        "parts",
+        "properties",
+    }
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
@@ -103,18 +113,21 @@ def _body(data: Json, index: int) -> Body:
         raise InputError(f'{where}: "closed": not true or false: {shown(closed)}')
     motion = _motion(body["motion"], f'{where}: "motion"') if "motion" in body else REST
     radius = _radius(body["radius"], f'{where}: "radius"') if "radius" in body else QQ(0)
+    more = properties_in(body.get("properties", {}), f'{where}: "properties"')
     if "keyframes" in body:
         frames = _keyframes(body["keyframes"], f'{where}: "keyframes"')
-        return Body(name, motion=motion, closed=closed, keyframes=frames, radius=radius)
+        return Body(
+            name, motion=motion, closed=closed, keyframes=frames, radius=radius, properties=more
+        )
     if "parts" in body:
         rows = a_list(body["parts"], f'{where}: "parts"')
         if not rows:
             raise InputError(f'{where}: "parts": at least one part is needed')
         parts = [_part(row, f"{where}: part {i}") for i, row in enumerate(rows)]
-        return Body(name, None, motion, closed=closed, parts=parts, radius=radius)
+        return Body(name, None, motion, parts=parts, closed=closed, radius=radius, properties=more)
     vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)
     holes = _holes(body, where)
-    return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius)
+    return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius, properties=more)
 
 
 def _part(data: Json, where: str) -> dict[str, object]:

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from math import inf
 from typing import Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
+from exactpt.motion.body import is_text
 
 VERSION: Final = 1
 """The version of the file format (docs/format.md)."""
@@ -19,6 +21,11 @@ MOST_DIGITS: Final = 10_000
 """Maximum number of digits of a numerator or denominator, to bound the cost of arithmetic."""
 MOST_BITS: Final = 33_220
 """Bit length of the largest integer with `MOST_DIGITS` digits."""
+
+DEEPEST: Final = 32
+"""Number of lists and objects around each other, from the scene itself on."""
+LONGEST: Final = 4000
+"""Number of digits from which on an integer stays a text, as Python reads no longer ones."""
 
 
 class Number(str):
@@ -119,6 +126,44 @@ def an_object(
             f"{where}: unknown key {shorten(min(unknown))}: {shown(data[min(unknown)])}"
         )
     return data
+
+
+def properties_in(data: Json, where: str) -> dict[str, object]:
+    """Return the properties of a body, which have no meaning here.
+
+    Raises:
+        InputError: if they are no object, are nested too deeply, or a text or a number in them is
+            none of JSON.
+    """
+    if not isinstance(data, dict):
+        raise InputError(f"{where}: not an object: {shown(data)}")
+    _check_json(data, where, DEEPEST - 3)
+    return {key: plain(value) for key, value in data.items()}
+
+
+def _check_json(data: Json, where: str, levels: int) -> None:
+    """Check a value that has no meaning here; ``levels`` is how deep it may be."""
+    inside = [*data, *data.values()] if isinstance(data, dict) else data
+    if isinstance(inside, list):
+        if not levels:
+            raise InputError(f"{where}: nested more than {DEEPEST} deep")
+        for value in inside:
+            _check_json(value, where, levels - 1)
+    elif isinstance(inside, Number) and not inside[-1].isdigit():
+        raise InputError(f"{where}: not a number of JSON: {shown(inside)}")
+    elif isinstance(inside, str) and inside and not is_text(inside):
+        raise InputError(f"{where}: not a text: {shown(inside)}")
+
+
+def plain(data: Json) -> object:
+    """Return a value with numbers of Python; one that is beyond the doubles stays a text."""
+    if isinstance(data, Number):
+        digits = data.removeprefix("-")
+        number = int(data) if digits.isdigit() and len(digits) < LONGEST else float(data)
+        return str(data) if number in (inf, -inf) else number
+    if isinstance(data, dict):
+        return {key: plain(value) for key, value in data.items()}
+    return [plain(value) for value in data] if isinstance(data, list) else data
 
 
 def shown(data: Json) -> str:

@@ -23,7 +23,7 @@ from exactpt.motion.motions import (
 )
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
-from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long
+from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long, parse_json, properties_in
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -78,7 +78,22 @@ def _body_to_json(body: Body) -> dict[str, object]:
         data |= _part_to_json(body, body.parts[0])
     if body.motion != REST:
         data["motion"] = _motion_to_json(body.motion)
+    if body.properties:
+        data["properties"] = json_properties(body)
     return data
+
+
+def json_properties(body: Body) -> dict[str, object]:
+    """Return the properties of a body.
+
+    Raises:
+        InputError: if JSON has no such data.
+    """
+    try:
+        text = json.dumps(body.properties, allow_nan=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise InputError(f"properties: {error}") from None
+    return properties_in(parse_json(text), "properties")
 
 
 def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:

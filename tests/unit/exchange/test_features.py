@@ -1,5 +1,6 @@
 """Properties of features, answers as features, dates, and shapes at irrational times."""
 
+import functools
 import json
 import math
 import pickle
@@ -36,6 +37,40 @@ def test_properties_of_features_come_back(tmp_path):
     assert (second.name, second.properties["cat"]) == ("Mary 2", 2)
     written = json.loads((tmp_path / "out.geojson").read_text())["features"]
     assert [f["properties"] for f in written] == [SHIP, {"name": "Mary 2", "cat": 2}]
+
+
+def test_properties_are_in_scene_files(tmp_path):
+    data = {**SHIP, "of": [{"a": [True, None, 1.5, -3]}, ""], "vertices": 5}
+    pentagon = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    bodies = [
+        Body("chain", [(9, 9), (9, 8), (8, 8)], closed=False, properties=data),
+        Body("keyed", keyframes=[(0, [(0, 9)]), (1, [(1, 9)])], properties=data),
+        Body("holed", pentagon, holes=[[(1, 1), (1, 2), (2, 1)]], properties=data),
+        Body(
+            "two", parts=[[(20, 0), (21, 0), (20, 1)], [(22, 0), (23, 0), (22, 1)]], properties=data
+        ),
+        Body("none", [(30, 0)]),
+    ]
+    scene = Scene(bodies, time=(0, 9))
+    scene.save(tmp_path / "scene.json")
+
+    again = Scene.load(tmp_path / "scene.json")
+    assert again == scene
+    assert [body.properties for body in again.bodies] == [data] * 4 + [{}]
+    assert "properties" not in again.to_json()["bodies"][4]
+    assert exactpt.first_contact(again) is None
+    exactpt.write_shapes(again, tmp_path / "map.geojson", at=0)
+    kept = exactpt.read_shapes(tmp_path / "map.geojson").bodies
+    assert [body.properties.get("mmsi") for body in kept[:3]] == [SHIP["mmsi"]] * 3
+
+
+@pytest.mark.parametrize(
+    "value", [float("nan"), {1, 2}, "\ud800", functools.reduce(lambda a, _: [a], range(29), 1)]
+)
+def test_properties_that_scene_files_do_not_have(value):
+    scene = Scene([Body("a", [(0, 0)], properties={"x": value})], time=(0, 1))
+    with pytest.raises(InputError, match=r"^body 'a': properties: [^\n]+$"):
+        scene.to_json()
 
 
 def test_properties_follow_copies_and_have_no_part_in_equality():
