@@ -132,8 +132,8 @@ def properties_in(data: Json, where: str) -> dict[str, object]:
     """Return the properties of a body, which have no meaning here.
 
     Raises:
-        InputError: if they are no object, are nested too deeply, or a text or a number in them is
-            none of JSON.
+        InputError: if it is not an object, is nested too deeply, or has a text or a number that
+            JSON does not have.
     """
     if not isinstance(data, dict):
         raise InputError(f"{where}: not an object: {shown(data)}")
