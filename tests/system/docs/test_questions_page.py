@@ -16,7 +16,7 @@ from fuzz.transformations.command import equalities
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs" / "questions.md").read_text(encoding="utf-8")
-QUESTIONS, REST = PAGE.split("\n## What is no question\n")
+QUESTIONS, REST = PAGE.split("\n## Outside the domain\n")
 NONE = REST.split("\n## ")[0]
 ROWS = [line.strip("| ").split(" | ") for line in QUESTIONS.splitlines() if line.startswith("| `")]
 QUOTED = sorted(
