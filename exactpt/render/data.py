@@ -7,6 +7,7 @@ polynomials of the engine, with all coefficients.
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Final
 
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
@@ -15,6 +16,8 @@ from exactpt.render.palette import body_colour
 from exactpt.render.words import contact_in_words, pair_in_words, short
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.pairs.contact import Contact
     from exactpt.render.film import Film, Step
@@ -133,6 +136,28 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
     return data
 
 
+def touched_edges(contact: Contact, scene: Scene) -> Iterator[tuple[int, int] | None]:
+    """Yield for each incidence the edge that is touched, as two vertices of its other body.
+
+    Two edges in one place have two pairs of vertices that coincide: for both pairs, that edge.
+    None if a vertex alone is touched.
+    """
+    places = {(p.body, p.vertex, p.other, p.other_vertex) for p in contact.pairs}
+    for pair in contact.pairs:
+        other = scene.body(pair.other)
+        if pair.edge is not None:
+            yield pair.edge, other.end_of_edge(pair.edge)
+            continue
+        sides, its = (
+            [u + v - at for u, v in body.edges if at in (u, v)]
+            for body, at in ((scene.body(pair.body), pair.vertex), (other, pair.other_vertex or 0))
+        )
+        both = product(sides, its)
+        found = (w for v, w in both if (pair.body, v, pair.other, w) in places)
+        end = next(found, None)
+        yield None if end is None else (pair.other_vertex or 0, end)
+
+
 def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, object]:
     first: dict[str, int] = {}
     count = 0
@@ -140,14 +165,10 @@ def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, obje
         first[body.name] = count
         count += body.size
     pairs = []
-    for pair in contact.pairs:
+    for pair, touched in zip(contact.pairs, touched_edges(contact, scene), strict=True):
         start = first[pair.other]
-        edge, other = None, None
-        if pair.edge is not None:
-            end = scene.body(pair.other).end_of_edge(pair.edge)
-            edge = [start + pair.edge, start + end]
-        if pair.other_vertex is not None:
-            other = start + pair.other_vertex
+        edge = None if touched is None else [start + vertex for vertex in touched]
+        other = None if pair.other_vertex is None else start + pair.other_vertex
         radius = scene.body(pair.body)._radius
         shift = None
         if pair.normal is not None and (radius or scene.body(pair.other)._radius):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
+from exactpt.render.data import touched_edges
 from exactpt.render.labels import Named, labels
 from exactpt.render.palette import ARROW, TINTS, body_colour
 from exactpt.render.window import Window, window_of
@@ -269,8 +270,8 @@ def marks_of(
     """Return the marks of a contact; ``pixels`` are those of the bodies, by name."""
     rounded = {body.name for body in scene.bodies if body._radius}
     return tuple(
-        _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
-        for pair in contact.pairs
+        _mark(pair, edge, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
+        for pair, edge in zip(contact.pairs, touched_edges(contact, scene), strict=True)
     )
 
 
@@ -288,7 +289,7 @@ def arrow_boxes(mark: Mark) -> list[tuple[float, float, float, float]]:
 
 def _mark(
     pair: Pair,
-    scene: Scene,
+    touched: tuple[int, int] | None,
     pixels: dict[str, tuple[Pixel, ...]],
     window: Window,
     *,
@@ -296,9 +297,7 @@ def _mark(
 ) -> Mark:
     """Return the mark of an incidence; ``touches`` unless a body has a radius."""
     other = pixels[pair.other]
-    edge = None
-    if pair.edge is not None:
-        edge = (other[pair.edge], other[scene.body(pair.other).end_of_edge(pair.edge)])
+    edge = None if touched is None else (other[touched[0]], other[touched[1]])
     normal = None if pair.normal in (None, (0.0, 0.0)) else (pair.normal[0], -pair.normal[1])
     if touches:
         return Mark(pixels[pair.body][pair.vertex], normal, edge)

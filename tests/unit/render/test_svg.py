@@ -111,6 +111,19 @@ def test_the_contact_is_said_and_marked():
     assert frame.marks[0].normal == (-1.0, 0.0)
 
 
+def test_two_edges_in_one_place_are_marked():
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    right = [(5, 0), (6, 0), (6, 1), (5, 1)]
+    corner = [(9, 1), (9, 2), (8, 1)]  # its edges from (9, 1) lie on none
+    bodies = [Body("a", square, Translation([0, 1], [0])), Body("b", right), Body("c", corner)]
+    bodies.append(Body("d", [(13, -1), (13, 1), (14, 0)], Translation([0, -1], [0])))
+    frame = frame_of(still(Scene(bodies, time=(0, 9)), None))
+
+    (x, low), (_, high) = (frame.shapes[1].pixels[i] for i in (0, 3))
+    marked = [tuple(sorted(mark.edge)) if mark.edge else None for mark in frame.marks]
+    assert marked == [((x, high), (x, low))] * 2 + [None]
+
+
 def test_the_contact_at_an_irrational_time():
     frame, root = drawn(demo(), None)
     assert frame.news == "vertex 0 of boat on edge 6 of harbour"
