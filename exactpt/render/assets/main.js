@@ -34,6 +34,7 @@ function resized() {
   stage.painter.resize(stage.camera);
   if (isFitted) stage.fit({ isFlying: false });
   controls.drawTicks();
+  stage.paint(performance.now()); // a canvas of another size is empty until it is painted
   changed();
 }
 

@@ -96,7 +96,7 @@ class Stage {
     const chart = this.evaluated();
     // Relative to the vertex, so that the difference is exact before it is rounded.
     chart.moveTo(this.player.time, chart.placeOf(node, this.player.time));
-    if (!edge) return Math.hypot(chart.x[other], chart.y[other]) * camera.scale;
+    if (other !== null) return Math.hypot(chart.x[other], chart.y[other]) * camera.scale;
     const [u, v] = edge;
     const length = Math.hypot(chart.x[v] - chart.x[u], chart.y[v] - chart.y[u]);
     return Math.abs(chart.cross(u, v) / length) * camera.scale;

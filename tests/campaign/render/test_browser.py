@@ -29,6 +29,7 @@ from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.browser
 
+WebDriverWait = pytest.importorskip("selenium.webdriver.support.ui").WebDriverWait
 ActionChains = pytest.importorskip(
     "selenium.webdriver", reason="selenium is not installed"
 ).ActionChains
@@ -209,6 +210,21 @@ def test_hover_tells_names_and_places(page):
     assert tip.is_displayed()
     assert tip.text.splitlines()[0] == "boat:0"
     assert tip.text.splitlines()[1].startswith("x = 3.")
+
+
+def test_bug_the_canvas_was_empty_until_the_frame_after_a_resize(page):
+    size, box = page.get_window_size(), page.find_element("id", "canvas")
+    page.execute_script("requestAnimationFrame = () => 0;")
+    before = box.size
+    try:
+        page.set_window_size(size["width"] - 90, size["height"] - 60)
+        WebDriverWait(page, 10).until(lambda _: box.size != before)
+        assert page.execute_script("""
+            const box = document.getElementById("canvas"), pen = box.getContext("2d");
+            return pen.getImageData(0, 0, box.width, box.height).data.some((v) => v);
+        """)
+    finally:
+        page.set_window_size(size["width"], size["height"])
 
 
 def test_light_and_dark(page):
