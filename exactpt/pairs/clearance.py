@@ -40,12 +40,10 @@ from exactpt.motion.body import Body
 from exactpt.pairs.distance import squared_gap
 from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.intervals import intervals
-from exactpt.pairs.near_features import NearFeatures
+from exactpt.pairs.near_features import ENOUGH, NearFeatures
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene
 
-ENOUGH: Final = 8
-"""Number of pairs of features that are compared exactly without further ado."""
 IN_VAIN: Final = 5
 """Number of halvings in a row, each leaving more than three quarters, after which they end."""
 

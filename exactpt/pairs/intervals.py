@@ -14,6 +14,9 @@ from functools import cmp_to_key
 from itertools import chain
 from typing import Final, final
 
+import numpy as np
+
+from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
@@ -171,7 +174,9 @@ def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[Alg
     """
     squared = (a._radius + b._radius) ** 2
     begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
-    for pair in feature_pairs(a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch)):
+    for pair in feature_pairs(
+        a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch).tolist()
+    ):
         ask()
         if not (squared or corners or pair.is_of_edge):
             return
@@ -181,21 +186,19 @@ def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[Alg
         yield from (time for time in times if pair.holds(time))
 
 
-def _near_pairs(a: Body, b: Body, stretch: Stretch) -> Iterable[int]:
+def _near_pairs(a: Body, b: Body, stretch: Stretch) -> Indices:
     """Return the numbers of the pairs of features that may come to the sum of the radii.
 
     All if they are few. For each vertex its edges, if that is 0: equal times take the first one's
     form.
     """
     n, m, of_a, of_b = a.size, b.size, len(a.edges), len(b.edges)
-    order: Iterable[int] = range(n * m + of_a * m + n * of_b)
-    if not (a._radius or b._radius):
-        order = chain(
-            range((n + of_a) * m, (n + of_a) * m + n * of_b),
-            ((n + e) * m + j for j in range(m) for e in range(of_a)),
-            range(n * m),
-        )
-    if n * m <= FEW:
+    order = np.arange(n * m + of_a * m + n * of_b)
+    if n * m > FEW:
+        order = NearFeatures(a, b, stretch).within(a._radius + b._radius)
+    if a._radius or b._radius:
         return order
-    near = set(NearFeatures(a, b, stretch).within(a._radius + b._radius).tolist())
-    return [k for k in order if k in near]
+    corners, of_second = order < n * m, order >= (n + of_a) * m
+    edges = order[~corners & ~of_second]
+    edges = edges[np.lexsort((edges // m, edges % m))]
+    return np.concatenate([order[of_second], edges, order[corners]])

@@ -16,10 +16,21 @@ edge along u from one of its ends, at most 2^1.5 M long both, (w . u) / |u|^2 is
 distance adds less than 30 U M. An edge shorter than 2^-150 counts as its end. So distances are off
 by less than 128 U M + 2^-149; `SLACK` covers the rounding of R and of the sums. A scalar product is
 off by less than 8 U |u| |w|, of which 16 U are taken, and 2^-900 for underflow.
+
+Translations. If each body translates, the vectors z between points of the two bodies are z + s
+after the middle of the interval, with one s for all of them and |s| <= r. Let z be the vector of
+the pair that seems nearest, u a unit vector near its direction, a = u . z and b = |u x z|. Its
+distance is at most u . (z + s) + (b + r)^2 / (2 (a - r)), as sqrt(x^2 + y^2) <= x + y^2 / (2 x),
+that of another pair is at least u . (z' + s), the least of its ends: it is always larger if
+u . z' - a exceeds the quotient, which is of second order in r. Let e bound how far all vertices are
+off their places in the middle. |u| is off 1 by less than 4 U and u . x by less than 8 U M; so
+128 U M + 4 e + 2^-149 covers all sums, and is added to b and to r too.
 """
 
 from __future__ import annotations
 
+import math
+from functools import cached_property
 from itertools import pairwise
 from typing import Final, TypeAlias, final
 
@@ -34,11 +45,14 @@ from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair, feature_pairs
 from exactpt.pairs.stretches import Stretch
 
 Floats: TypeAlias = NDArray[np.float64]
 
+ENOUGH: Final = 16
+"""Number of pairs of features that are compared exactly."""
 LARGEST: Final = 2.0**400
 PARTS: Final = 32
 """Number of parts of a stretch in which boxes are compared."""
@@ -48,11 +62,7 @@ SHORT: Final = 2.0**-300
 
 @final
 class NearFeatures:
-    """The pairs of features of two bodies in a stretch of time, numbered as in `feature_pairs`.
-
-    Attributes:
-        all: the numbers of all pairs.
-    """
+    """The pairs of features of two bodies in a stretch of time, numbered as in `feature_pairs`."""
 
     def __init__(self, a: Body, b: Body, stretch: Stretch) -> None:
         check_rounding()
@@ -66,8 +76,52 @@ class NearFeatures:
         enclosures = Enclosures(self._frame)
         self._boxes = SweptBoxes(enclosures.images([*p, *q]), enclosures.errors)
         self._pairs: dict[int, FeaturePair] = {}
-        self._vertex, self._from, self._to = _ends(a, b, len(p), len(q))
-        self.all: Indices = np.arange(len(self._vertex))
+        self._translates = all(map(_translate, (p, q)))
+
+    @cached_property
+    def all(self) -> Indices:
+        """The numbers, in increasing order, of all pairs that may be nearest in the stretch."""
+        n, m = len(self._stretch.first), len(self._stretch.second)
+        first, second = np.ones(n, np.bool_), np.ones(m, np.bool_)
+        if self._translates:
+            boxes, there = self._during(self._stretch.begin, self._stretch.end)
+            x, y = there[:, 0], there[:, 2]
+            i, j = 0, n
+            for _ in range(ENOUGH):  # vertices that are near each other
+                i = _nearest(x[:n], y[:n], x[j], y[j])
+                j = n + _nearest(x[n:], y[n:], x[i], y[i])
+            along, bound = _beyond(boxes, there, np.array([j]), np.array([i]), np.array([i]))
+            first = ~(along[n:].min() - along[:n] > bound)
+            second = ~(along[n:] - along[:n].max() > bound)
+        edges = [np.array(body.edges, np.int64).reshape(-1, 2) for body in self._two]
+        e, f = (
+            np.flatnonzero(near[at].any(axis=1))
+            for near, at in zip((first, second), edges, strict=True)
+        )
+        p, q, start = first.nonzero()[0], second.nonzero()[0], (n + len(edges[0])) * m
+        products = (p * m, q), ((n + e) * m, q), (start + p * len(edges[1]), f)
+        return np.concatenate([np.add.outer(*two).ravel() for two in products])
+
+    @cached_property
+    def _ends(self) -> tuple[Indices, Indices, Indices]:
+        """The vertex and the ends of the edge of each pair; of a vertex, twice the vertex.
+
+        Vertices of the second body are numbered after those of the first one.
+        """
+        n, m = len(self._stretch.first), len(self._stretch.second)
+        e = np.concatenate([np.arange(n).repeat(2), np.array(self._two[0].edges, int).ravel()])
+        f = n + np.array(self._two[1].edges, int).reshape(-1, 2)
+        of_second = self.all >= len(e) // 2 * m
+        i, j = np.divmod(self.all[~of_second], m)
+        k, g = np.divmod(self.all[of_second] - len(e) // 2 * m, max(1, len(f)))
+        ends = np.concatenate([e.reshape(-1, 2)[i], f[g]])
+        return np.concatenate([n + j, k]), ends[:, 0], ends[:, 1]
+
+    def _during(self, begin: QQ, end: QQ) -> tuple[Boxes, Boxes]:
+        """Return the boxes of all vertices during an interval, and in its middle."""
+        low, high = self._frame.time(begin)[0], self._frame.time(end)[1]
+        middle = 0.5 * (low + high)
+        return self._boxes.during(low, high), self._boxes.during(middle, middle)
 
     def pairs(self, numbers: Indices) -> list[FeaturePair]:
         """Return the pairs with these numbers, each made once."""
@@ -102,9 +156,17 @@ class NearFeatures:
     def nearest(self, numbers: Indices, low: QQ, high: QQ) -> Indices:
         """Return those pairs that may be nearest of these pairs at a time from low to high."""
         ask()
-        boxes = self._boxes.during(self._frame.time(low)[0], self._frame.time(high)[1])
-        ends = self._vertex[numbers], self._from[numbers], self._to[numbers]
-        return numbers[_may_be_least(boxes, *ends)]
+        at = np.searchsorted(self.all, numbers)
+        v, a, b = (ends[at] for ends in self._ends)
+        boxes, there = self._during(low, high)
+        kept = np.flatnonzero(_may_be_least(boxes, v, a, b))
+        if self._translates and len(kept) > ENOUGH:
+            v, a, b = v[kept], a[kept], b[kept]
+            along, bound = _beyond(boxes, there, v, a, b)
+            side = np.where(v < a, -1.0, 1.0)
+            gaps = np.minimum(side * (along[v] - along[a]), side * (along[v] - along[b]))
+            kept = kept[~(gaps > bound)]
+        return numbers[kept]
 
 
 def _joined(some: Boxes, others: Boxes) -> Boxes:
@@ -141,15 +203,40 @@ def _may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> NDArray[n
     return kept
 
 
-def _ends(a: Body, b: Body, n: int, m: int) -> tuple[Indices, Indices, Indices]:
-    """Return the vertex and the ends of the edge of all pairs; of a vertex, twice the vertex.
+@np.errstate(all="ignore")
+def _beyond(boxes: Boxes, there: Boxes, v: Indices, a: Indices, b: Indices) -> tuple[Floats, float]:
+    """Return u . x of all vertices, and a bound of u . z for pairs of bodies that translate.
 
-    Vertices of the second body are numbered from n on.
+    Pairs of which it is always larger are not nearest (see the module); u points from the first to
+    the second body, along the pair of a vertex v and an edge from a to b that is nearest of those
+    given. NaN is no bound. The boxes are of the vertices, during the interval and in its middle.
     """
-    first, second = np.arange(n), n + np.arange(m)
-    e = np.array(a.edges, np.int64).reshape(-1, 2)
-    f = np.array(b.edges, np.int64).reshape(-1, 2) + n
-    vertex = [np.tile(second, n), np.tile(second, len(e)), np.repeat(first, len(f))]
-    start = [np.repeat(first, m), np.repeat(e[:, 0], m), np.tile(f[:, 0], n)]
-    stop = [start[0], np.repeat(e[:, 1], m), np.tile(f[:, 1], n)]
-    return np.concatenate(vertex), np.concatenate(start), np.concatenate(stop)
+    x, y = 0.5 * (there[:, 0] + there[:, 1]), 0.5 * (there[:, 2] + there[:, 3])
+    size = max(np.abs(x).max(), np.abs(y).max())
+    away = np.maximum(
+        np.abs(boxes[:, ::2] - there[:, 1::2]), np.abs(boxes[:, 1::2] - there[:, ::2])
+    )
+    error = 4.0 * (there[:, 1::2] - there[:, ::2]).max() + 128.0 * U * size + 2.0**-149
+    ux, uy, wx, wy = x[b] - x[a], y[b] - y[a], x[v] - x[a], y[v] - y[a]
+    at = np.clip((ux * wx + uy * wy) / np.maximum(ux * ux + uy * uy, SHORT), 0.0, 1.0)
+    zx, zy = wx - at * ux, wy - at * uy
+    best = int(np.argmin(np.hypot(zx, zy)))
+    length = math.hypot(zx[best], zy[best])
+    ux, uy = zx[best] / length, zy[best] / length
+    r = (np.hypot(*away[v[best]]) + np.hypot(*away[a[best]]) + error) * SLACK
+    beside = abs(ux * zy[best] - uy * zx[best]) + r + error
+    bound = (length + 0.5 * beside**2 / (length - r) + error) * SLACK
+    side = -1.0 if v[best] < a[best] else 1.0
+    return side * (ux * x + uy * y), bound if length > 2.0 * r and size < LARGEST else math.nan
+
+
+@np.errstate(all="ignore")
+def _nearest(xs: Floats, ys: Floats, x: float, y: float) -> int:
+    """Return the number of a point that is about nearest to another one."""
+    return int(np.argmin(np.hypot(xs - x, ys - y)))
+
+
+def _translate(tracks: tuple[Track, ...]) -> bool:
+    """Return True if the vertices of a body surely translate together."""
+    motion = tracks[0].motion
+    return motion is not None and all(t.motion == motion and len(t.w) == 1 for t in tracks)

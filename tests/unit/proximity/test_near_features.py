@@ -52,6 +52,29 @@ def test_the_nearest_pairs_are_kept(name, offset):
             assert len(kept) < len(pairs)
 
 
+@pytest.mark.parametrize("offset", [0, 10**6])
+def test_the_nearest_pairs_of_translating_polygons_are_kept(offset, monkeypatch):
+    """The filter of second order, at work on few pairs: one body passes beside the other."""
+    monkeypatch.setattr("exactpt.pairs.near_features.ENOUGH", 1)
+    random, left_out = Random(offset), 0
+    for k in range(24):
+        sides = random.randint(1, 12), random.randint(1, 12)
+        bend = QQ(random.randint(-9, 9), 9)
+        a = Body("a", ring(sides[0], offset), Translation([0, bend], [random.uniform(-2, 0), 2]))
+        b = Body("b", ring(sides[1], offset + random.uniform(3, 5), random.uniform(-1, 1)))
+        (stretch,) = stretches(a, b, QQ(0), QQ(1))
+        near = NearFeatures(a, b, stretch)
+        pairs = list(feature_pairs(a, b, stretch.first, stretch.second))
+        low, high = [(QQ(0), QQ(1)), (QQ(1, 3), QQ(1))][k % 2]
+        kept = set(near.nearest(near.all, low, high).tolist())
+        left_out += len(pairs) - len(kept)
+        for t in (low, (2 * low + high) / 3, (low + high) / 2, (low + 5 * high) / 6, high):
+            gaps = {k: g for k, pair in enumerate(pairs) if (g := _gap(pair, t)) is not None}
+            least = min(gaps.values())
+            assert {k for k, gap in gaps.items() if gap == least} <= kept
+    assert left_out > 1000
+
+
 def _gap(pair, t):
     """The squared distance, computed from positions; None where the foot is beyond an end."""
     (x, y), (ax, ay) = pair.v._at(t), pair.ends[0]._at(t)
