@@ -209,7 +209,8 @@ def _beyond(boxes: Boxes, there: Boxes, v: Indices, a: Indices, b: Indices) -> t
 
     Pairs of which it is always larger are not nearest (see the module); u points from the first to
     the second body, along the pair of a vertex v and an edge from a to b that is nearest of those
-    given. NaN is no bound. The boxes are of the vertices, during the interval and in its middle.
+    given. A bound of NaN excludes none. Boxes are of the vertices, during the interval and in the
+    middle of it.
     """
     x, y = 0.5 * (there[:, 0] + there[:, 1]), 0.5 * (there[:, 2] + there[:, 3])
     size = max(np.abs(x).max(), np.abs(y).max())
@@ -232,7 +233,7 @@ def _beyond(boxes: Boxes, there: Boxes, v: Indices, a: Indices, b: Indices) -> t
 
 @np.errstate(all="ignore")
 def _nearest(xs: Floats, ys: Floats, x: float, y: float) -> int:
-    """Return the number of a point that is about nearest to another one."""
+    """Return the number of a point that is about nearest to (x, y)."""
     return int(np.argmin(np.hypot(xs - x, ys - y)))
 
 

@@ -14,7 +14,7 @@ from typing import final
 from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, place
+from exactpt.kernel.numbers import place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
@@ -100,23 +100,23 @@ class ShortestPaths:
             return []
         ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
         spot, _ = find(plane, p)
-        at, here = QQ(0), tile
+        here = tile
         crossed: list[HalfEdge] = []
         while True:
-            step = next_step(plane, ray, spot, at)
+            step = next_step(plane, ray, spot)
             there = step.through.handle if step.through.on is On.FACE else here
             if spot.on is On.EDGE and there not in (here, OUTSIDE):
                 h = HalfEdge(spot.handle)
                 crossed.append(h if plane.face[h] == here else twin(h))
                 here = there
-            if step.end is None or step.at >= 1:
+            if step.end is None or ray.parameter(step.end) >= 1:
                 self._tile(q)  # raises if q is not free
                 return crossed
             place = place_of(plane, step.end)
             if place.body is not None:
-                x, y = ray.point(step.at)
+                x, y = ray.point(ray.parameter(step.end))
                 raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
-            spot, at = step.end, step.at
+            spot = step.end
 
     def _tight(self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point) -> Path:
         plane = self._plane

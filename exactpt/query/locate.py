@@ -30,14 +30,14 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
     if plane.out[node] < 0:  # the only one
         return Spot(On.FACE, OUTSIDE), 0
     ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
-    spot, at, crossed = Spot(On.NODE, node), QQ(0), 0
+    spot, crossed = Spot(On.NODE, node), 0
     while True:
-        step = next_step(plane, ray, spot, at)
-        if step.end is None or step.at > 1:
+        step = next_step(plane, ray, spot)
+        if step.end is None or (at := ray.parameter(step.end)) > 1:
             return step.through, crossed
-        if step.at == 1:
+        if at == 1:
             return step.end, crossed
-        spot, at, crossed = step.end, step.at, crossed + 1
+        spot, crossed = step.end, crossed + 1
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
@@ -94,14 +94,15 @@ def cast(
     ray = Ray(plane, origin, direction)
     if OUTSIDE not in plane.cycles:
         return _cast_at_point(plane, ray, limit)
-    at, crossed = QQ(0), 0
+    crossed = 0
     while True:
-        step = next_step(plane, ray, spot, at)
-        if step.end is None or (limit is not None and step.at > limit):
+        step = next_step(plane, ray, spot)
+        if step.end is None or (limit is not None and ray.parameter(step.end) > limit):
             return None
-        spot, at = step.end, step.at
-        place = place_of(plane, spot)
-        if place.body is not None:
+        spot = step.end
+        if spot.on is On.NODE or plane.boundary[spot.handle >> 1]:
+            place, at = place_of(plane, spot), ray.parameter(spot)
+            assert place.body is not None  # noqa: S101 - nodes and boundaries are of bodies
             point = in_fractions(ray.point(at))
             return Hit(place.body, place.vertex, place.edge, point, fraction(at), crossed)
         crossed += 1

@@ -18,7 +18,7 @@ from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, nearest_float, sign
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.planar.halfedge import twin
-from exactpt.query.subdivision import Subdivision, cross
+from exactpt.query.subdivision import OUTSIDE, Subdivision, cross
 
 _LARGEST: Final = 2.0**500
 
@@ -49,27 +49,35 @@ class RayStep(NamedTuple):
     Attributes:
         through: the face, or the half-edge in the direction of the ray, that contains the
             interior of the step.
-        end: the cell that contains its end; None if the step is unbounded.
-        at: the parameter of its end, which is origin + at * direction.
+        end: the edge or the node that contains its end; None if the step is unbounded.
     """
 
     through: Spot
     end: Spot | None
-    at: QQ
 
 
 @final
 class Ray:
     """The points origin + s * direction, s >= 0; the direction is not (0, 0)."""
 
-    __slots__ = ("_near", "_nodes", "_norm", "_off", "_points", "_sides", "direction", "origin")
+    __slots__ = (
+        "_near",
+        "_nodes",
+        "_norm",
+        "_off",
+        "_plane",
+        "_points",
+        "direction",
+        "origin",
+        "sides",
+    )
 
     def __init__(self, plane: Subdivision, origin: Point, direction: Point) -> None:
         self.origin = origin
         self.direction = direction
         self._norm = direction[0] * direction[0] + direction[1] * direction[1]
-        self._points = plane.points
-        self._sides: dict[VertexId, int] = {}
+        self._plane, self._points = plane, plane.points
+        self.sides: dict[VertexId, int] = {}
         self._nodes = nodes = plane.nodes
         ox, oy = nodes.of(origin)
         dx, dy = nearest_float(direction[0]), nearest_float(direction[1])
@@ -80,9 +88,9 @@ class Ray:
 
     def side(self, node: VertexId) -> int:
         """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
-        known = self._sides.get(node)
+        known = self.sides.get(node)
         if known is None:
-            known = self._sides[node] = self._filtered_side(node) or self._exact_side(node)
+            known = self.sides[node] = self._filtered_side(node) or self._exact_side(node)
         return known
 
     def _filtered_side(self, node: VertexId) -> int:
@@ -105,6 +113,15 @@ class Ray:
         (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
         return sign(dx * (y - oy) - dy * (x - ox))
 
+    def parameter(self, spot: Spot) -> QQ:
+        """Return the parameter at a node of the ray, or an edge not parallel to it; 0 in a face."""
+        if spot.on is On.FACE:
+            return QQ(0)
+        if spot.on is On.NODE:
+            return self.reaches(VertexId(spot.handle))
+        origin = self._plane.map.origin
+        return self.crosses(origin[spot.handle], origin[spot.handle ^ 1])
+
     def reaches(self, node: VertexId) -> QQ:
         """Return the parameter of a node on the line of the ray."""
         (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
@@ -126,22 +143,22 @@ class Ray:
         )
 
 
-def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
-    """Return the step of a ray that starts at a spot with parameter ``at``."""
+def next_step(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
+    """Return the step of a ray that starts at a spot of it; in a face, at its origin."""
     if spot.on is On.FACE:
-        return _through_face(plane, ray, spot.handle, at)
+        return _through_face(plane, ray, spot.handle, spot)
     if spot.on is On.EDGE:
         h = HalfEdge(spot.handle)
         # The ray has a point of the edge, whose target is on the side `side` of it.
         turn = -ray.side(plane.map.target(h))
         if turn == 0:
-            return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
+            return _along(plane, h if _ahead(plane, ray, h) else twin(h))
         h = h if turn > 0 else twin(h)
-        return _through_face(plane, ray, plane.face[h], at, h)
+        return _through_face(plane, ray, plane.face[h], spot, h)
     h, along = _sector(plane, ray, VertexId(spot.handle))
     if along:
-        return _along(plane, ray, h)
-    return _through_face(plane, ray, plane.face[h], at)
+        return _along(plane, h)
+    return _through_face(plane, ray, plane.face[h], spot)
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
@@ -150,9 +167,8 @@ def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
     return x * dx + y * dy > 0
 
 
-def _along(plane: Subdivision, ray: Ray, h: HalfEdge) -> RayStep:
-    end = plane.map.target(h)
-    return RayStep(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
+def _along(plane: Subdivision, h: HalfEdge) -> RayStep:
+    return RayStep(Spot(On.EDGE, h), Spot(On.NODE, plane.map.target(h)))
 
 
 def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, bool]:
@@ -181,26 +197,30 @@ def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
 
 
 def _through_face(
-    plane: Subdivision, ray: Ray, face: int, at: QQ, entry: HalfEdge = NO_HALF_EDGE
+    plane: Subdivision, ray: Ray, face: int, since: Spot, entry: HalfEdge = NO_HALF_EDGE
 ) -> RayStep:
-    """Return the step through a face from a parameter on, perhaps from its entry edge."""
-    m = plane.map
-    best: QQ | None = None
-    end: Spot | None = None
+    """Return the step through a face from a spot on, perhaps from its entry edge.
+
+    From the interior of an edge a ray enters a bounded face, and leaves it: there is one end at
+    least, and parameters are compared only if there are several.
+    """
+    following, origin, sides = plane.map.following, plane.map.origin, ray.sides
+    ends: list[Spot] = []
     for first in plane.cycles[face]:
-        h = first
+        h, s = first, ray.side(origin[first])
         while True:
-            u, v = m.origin[h], m.origin[h ^ 1]
-            s, t = ray.side(u), ray.side(v)
+            v = origin[h ^ 1]
+            t = sides[v] if v in sides else ray.side(v)
             if s == 0:
-                when = ray.reaches(u)
-                if when > at and (best is None or when < best):
-                    best, end = when, Spot(On.NODE, u)
+                ends.append(Spot(On.NODE, origin[h]))
             elif s * t < 0 and h != entry:
-                when = ray.crosses(u, v)
-                if when > at and (best is None or when < best):
-                    best, end = when, Spot(On.EDGE, h)
-            h = m.following[h]
+                ends.append(Spot(On.EDGE, h))
+            h, s = following[h], t
             if h == first:
                 break
-    return RayStep(Spot(On.FACE, face), end, at if best is None else best)
+    through = Spot(On.FACE, face)
+    if len(ends) == 1 and entry != NO_HALF_EDGE and face != OUTSIDE:
+        return RayStep(through, ends[0])
+    at = ray.parameter(since)
+    later = [(when, k) for k, end in enumerate(ends) if (when := ray.parameter(end)) > at]
+    return RayStep(through, ends[min(later)[1]] if later else None)
