@@ -185,7 +185,7 @@ def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> Proo
             for line in proof.lines():
                 file.write(f"{line}\n")
                 if deadline is not None and clock.monotonic() > deadline:
-                    raise BudgetExceeded("the budget of the check is used up", proof.passed())
+                    raise BudgetExceeded("limit of the check exceeded", proof.passed())
         return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 
@@ -233,7 +233,7 @@ class _Witness(Observer):
             deadline is not None and clock.monotonic() > deadline
         ):
             low = tiling.now.canonical_interval()[0]
-            raise BudgetExceeded("the budget of the check is used up", low)
+            raise BudgetExceeded("limit of the check exceeded", low)
 
     def on_end(self, tiling: Tiling) -> None:
         """Verify the tiling at the end."""

@@ -140,5 +140,5 @@ def _pairs(pairs: ArrayLike, n: int) -> Indices:
         raise InputError(f"pairs{list(at)}: there is no body {ij[at]} among {n}")
     at = first_true(ij[:, 0] == ij[:, 1])
     if at is not None:
-        raise InputError(f"pairs{list(at)}: two bodies are asked for, not {ij[at][0]} twice")
+        raise InputError(f"pairs{list(at)}: expected two different bodies, got {ij[at][0]} twice")
     return ij

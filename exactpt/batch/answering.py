@@ -67,7 +67,7 @@ def answer(content: bytes, question: Question) -> Answer:
     except (InputError, BudgetExceeded) as error:
         return {"error": str(error)}
     except MemoryError:
-        return {"error": "the memory is used up"}
+        return {"error": "memory limit exceeded"}
     except RoundingError:  # not a fault of the scene
         raise
     except Exception as error:  # a bug: the other scenes get their answers nevertheless

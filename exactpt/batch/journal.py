@@ -44,7 +44,7 @@ class Journal:
         with ExitStack() as opened:
             self._part, self._journal = (opened.enter_context(_open(path)) for path in self._paths)
             if not lock(self._journal):
-                raise InputError(f"{self._paths[1]}: another batch writes it")
+                raise InputError(f"{self._paths[1]}: locked by another batch")
             about = {"exactpt batch": VERSION, "question": question.to_json(), "length": length}
             self._read(json.dumps(about))
             self._close = opened.pop_all().close
@@ -88,8 +88,8 @@ class Journal:
         known, *lines = self._journal.read().split(b"\n")[:-1] or [b""]
         if known not in {b"", head.encode()}:
             raise InputError(
-                f"{self._paths[1]}: of another question or input: remove it and "
-                f"{self._paths[0].name}, or ask the same"
+                f"{self._paths[1]}: of another query or input: remove it and "
+                f"{self._paths[0].name}, or repeat the same query"
             )
         size = 0
         try:
@@ -100,7 +100,7 @@ class Journal:
         except (TypeError, ValueError):
             raise InputError(f"{self._paths[1]}: not the journal of a batch") from None
         if self._part.seek(0, os.SEEK_END) < size:
-            raise InputError(f"{self._paths[0]}: answers are missing that the journal names")
+            raise InputError(f"{self._paths[0]}: answers of the journal are missing")
         self._part.truncate(size)
         self._part.seek(size)
         self._journal.truncate(sum(len(line) + 1 for line in (known, *lines)) if known else 0)

@@ -60,10 +60,12 @@ class Question:
             if value is not None:
                 rational(value)
         if self.every and self.distance is not None:
-            raise InputError("either all intervals of contact or a distance is asked for")
+            raise InputError("expected either every=True or a distance, not both")
         plain = self._first_only() == Question._defaults()
         if (self.every or self.distance is not None) and not plain:
-            raise InputError("methods and choices of bodies are for the first contact alone")
+            raise InputError(
+                "methods and choices of bodies are supported only for the first contact"
+            )
         if self.distance is not None:
             first_within(NOTHING, distance=self.distance, norm="euclidean")
         first_contact(  # refuses options that exclude each other

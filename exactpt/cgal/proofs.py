@@ -96,7 +96,7 @@ def _verdict(
     try:
         done = subprocess.run(command, capture_output=True, timeout=max_seconds, check=False)
     except subprocess.TimeoutExpired:
-        raise BudgetExceeded("the time is used up while the proof is verified", None) from None
+        raise BudgetExceeded("time limit exceeded while the proof was verified", None) from None
     except OSError as error:
         raise InputError(f"cannot start {str(path)!r}: {error.strerror}") from None
     line = done.stdout.decode("utf-8", "replace").strip()

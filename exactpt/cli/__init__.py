@@ -174,7 +174,7 @@ def main(
         code = BAD_INPUT
     except (BudgetExceeded, MemoryError) as error:
         print_error(
-            f"exactpt: {error if isinstance(error, BudgetExceeded) else 'the memory is used up'}"
+            f"exactpt: {error if isinstance(error, BudgetExceeded) else 'memory limit exceeded'}"
         )
         code = SPENT
     except OSError as error:

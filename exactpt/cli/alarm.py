@@ -56,7 +56,7 @@ def _alarm(seconds: float) -> Iterator[None]:
     def ring(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
         nonlocal rung
         rung = True
-        raise BudgetExceeded("the time is used up", None)
+        raise BudgetExceeded("time limit exceeded", None)
 
     old = signal.signal(signal.SIGALRM, ring)
     delay = min(seconds, LONGEST) + GRACE
@@ -65,7 +65,7 @@ def _alarm(seconds: float) -> Iterator[None]:
         yield
     except SystemError:
         if rung:
-            raise BudgetExceeded("the time is used up", None) from None
+            raise BudgetExceeded("time limit exceeded", None) from None
         raise
     finally:
         signal.setitimer(signal.ITIMER_REAL, left, interval)

@@ -60,4 +60,6 @@ def _check_alone(option_name: str) -> None:
     for name, written in option.items():
         source = context.get_parameter_source(name)
         if name not in {*TOGETHER, option_name} and source is ParameterSource.COMMANDLINE:
-            raise InputError(f"{option[option_name]}: {written} is for the first contact alone")
+            raise InputError(
+                f"{option[option_name]}: {written} is supported only for the first contact"
+            )

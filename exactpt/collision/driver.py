@@ -229,9 +229,9 @@ class Driver:
             BudgetExceeded: if the budget permits fewer, or its time is over.
         """
         if self.budget.is_late():
-            raise BudgetExceeded("the time is used up", self.reached())
+            raise BudgetExceeded("time limit exceeded", self.reached())
         if not self.budget.spend(events):
-            raise BudgetExceeded("the number of events is used up", self.reached())
+            raise BudgetExceeded("limit of events exceeded", self.reached())
 
     def reached(self) -> Fraction | None:
         """Return a rational time, at most now, up to which there is no contact.

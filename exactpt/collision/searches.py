@@ -100,7 +100,7 @@ def _selected(scene: Scene, question: Question) -> Search:
         what = "a tiling watches" if question.proof is None else "a proof is about"
         raise InputError(
             f"{what} all bodies, from the start on: contacts between some, or new ones after "
-            "the start, are found by pairs alone"
+            "the start, are found only by pairs"
         )
     from exactpt.pairs.selected import SelectedSearch
 

@@ -108,6 +108,6 @@ def _decimals(part: QQ) -> str:
     while rest % 5 == 0:
         rest, fives = rest // 5, fives + 1
     if rest > 1:
-        raise InputError(f"a date has no time that is no decimal number: {shorten(show(part))}")
+        raise InputError(f"a date needs a decimal number of seconds, got {shorten(show(part))}")
     places = max(twos, fives)
     return f".{int(part * 10**places):0{places}}"

@@ -152,7 +152,7 @@ def _path(feature: Json, where: str) -> _Path:
         if before >= after:
             raise InputError(f"{where}: datetimes do not increase: after {show(before)}")
     if len(times) < 2:
-        raise InputError(f"{where}: it is there at one time only, and nothing moves then")
+        raise InputError(f"{where}: expected at least two timestamps, got one")
     shapes = _shapes(geometry, str(kind), where, name)
     if len(shapes) != len(times):
         raise InputError(f"{where}: {len(times)} datetimes for {len(shapes)} positions")

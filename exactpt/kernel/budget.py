@@ -55,10 +55,10 @@ def ask() -> None:
     if now < _LIMITS.look:
         return
     if now >= _LIMITS.deadline:
-        raise BudgetExceeded("the time is used up", None)
+        raise BudgetExceeded("time limit exceeded", None)
     _LIMITS.look = min(_LIMITS.deadline, now + BETWEEN)
     if resident_memory() > _LIMITS.memory:
-        raise BudgetExceeded("the memory is used up", None)
+        raise BudgetExceeded("memory limit exceeded", None)
 
 
 @contextlib.contextmanager
@@ -68,7 +68,7 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
     A budget around this one holds too.
 
     Args:
-        deadline: the time of ``time.monotonic`` at which the time is used up; None for none.
+        deadline: the time of ``time.monotonic`` at which time limit exceeded; None for none.
         memory: maximum memory of the process, in bytes; None for no limit.
     """
     old = _LIMITS.deadline, _LIMITS.memory, _LIMITS.look
@@ -149,7 +149,7 @@ class Budget:
         return self._deadline is not None and clock.monotonic() > self._deadline
 
     def held(self) -> contextlib.AbstractContextManager[None]:
-        """Return a context whose long loops stop when the time or the memory is used up.
+        """Return a context whose long loops stop when the time or memory limit exceeded.
 
         A little more time is allowed than between two events, where a run can be interrupted and
         go on.

@@ -82,7 +82,7 @@ def in_local_time(
             pieces.append((begin, _held(motion, begin)))
         if given is None:
             if i < len(steps) - 1:
-                raise InputError(f"step {i}: only the last one may go on for ever")
+                raise InputError(f"step {i}: only the last step may have no end")
             pieces.append((None, motion))
             return Pieces(pieces)
         duration = rational(given)

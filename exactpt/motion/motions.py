@@ -103,7 +103,7 @@ class Translation(_Given):
             if isinstance(x, tuple) and len(x) == 2:
                 raise InputError(
                     f"Translation({shorten(x)}): to shift by a pair write Translation(*pair); "
-                    f"for the coefficients of x alone, a list"
+                    f"for the coefficients of x only, a list"
                 )
             y = ZERO
         self.x = polynomial(x)

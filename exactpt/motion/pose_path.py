@@ -79,7 +79,7 @@ class PosePath(Pieces):
         self._error, self._place_error = rational(error), rational(place_error)
         if len(self._times) != len(self._poses) + 1 or not self._poses:
             raise InputError(
-                f"a path has one pose fewer than times, and at least one: "
+                f"a path has at least one pose, and one pose fewer than times: "
                 f"{len(self._times)} times, {len(self._poses)} poses"
             )
         for t, until in pairwise(self._times):

@@ -135,7 +135,7 @@ def first_within(
     selection = Selection(scene, between, ignoring)
     if a is not None and b is not None:
         if not selection.is_all:
-            raise InputError("between and ignoring select among all pairs: name no two bodies then")
+            raise InputError("between and ignoring are not supported for two named bodies")
         first, second = two_bodies(scene, a, b)
         return time_within_of_two(first, second, scene._start, scene._end, d, norm)
     found: Near | None = None

@@ -153,7 +153,7 @@ class PairsSearch:
         approaches = self._approaches
         for now, later, near in self._swept.slabs(self._near):
             if self._deadline is not None and clock.monotonic() > self._deadline:
-                raise BudgetExceeded("the time is used up", fraction(now))
+                raise BudgetExceeded("time limit exceeded", fraction(now))
             sharp, rounded = self._split(near)
             best: Earliest[Touch] = Earliest()
             for found in (

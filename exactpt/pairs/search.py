@@ -200,7 +200,7 @@ class _Search:
         for enter, a, b in pairs:
             ask()
             if self._deadline is not None and clock.monotonic() > self._deadline:
-                raise BudgetExceeded("the time is used up", None)
+                raise BudgetExceeded("time limit exceeded", None)
             if enter > self.best.high:
                 break
             self._enter = enter

@@ -40,7 +40,7 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     a_scene(scene)
     first, second = scene.body(a), scene.body(b)
     if first is second:
-        raise InputError(f"two bodies are asked for, not {a!r} twice")
+        raise InputError(f"expected two different bodies, got {a!r} twice")
     return first, second
 
 

@@ -77,7 +77,7 @@ def asked_distance(
         raise InputError(f"no norm {shorten(norm)}; there are: {', '.join(NORMS)}")
     asked = squared if distance is None else distance
     if asked is None or (distance is not None and squared is not None):
-        raise InputError("either a distance or its square is asked for")
+        raise InputError("expected either a distance or its square")
     given = rational(asked)
     if given < 0:
         raise InputError(f"a distance is not negative: {show(given)}")

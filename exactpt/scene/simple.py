@@ -102,8 +102,8 @@ def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
             if outline not in outer:
                 raise fault(rings[i], "a hole is outside of its outline")
             if any(parts[j] == k and j != outline for j in outer):
-                raise fault(rings[i], "a hole is inside of another one")
+                raise fault(rings[i], "a hole is inside another hole")
         outer = around(outline)
         for other in sorted(outer.intersection(outlines)):
             if not any(parts[j] == parts[other] and j != other for j in outer):
-                raise fault(rings[outline], "a part is inside of another one")
+                raise fault(rings[outline], "a part is inside another part")

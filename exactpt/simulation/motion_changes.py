@@ -43,7 +43,7 @@ def with_new_motion(body: Body, plan: Motion | Body, t: QQ) -> Body:
     if isinstance(plan, Body):
         new = plan
         if (new.name, new.closed, new.parts) != (body.name, body.closed, body.parts):
-            raise InputError(f"body {body.name!r}: {new!r} is no plan for {body!r}")
+            raise InputError(f"body {body.name!r}: {new!r} is not a motion of {body!r}")
     else:
         new = body.with_motion(plan)
     if _moves_on(body, new, t):
@@ -133,8 +133,8 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
         near = t._low if t.is_rational or not passed else passed[-1]
         if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):
             raise InputError(
-                f"body {body.name!r}: its velocity at the irrational time {float(t)!r} is no "
-                f"rational; run to a rational time before"
+                f"body {body.name!r}: its velocity at the irrational time {float(t)!r} is not "
+                f"rational; run to a rational time before it"
             )
         t = near
     x, y = translation_at(body, t)

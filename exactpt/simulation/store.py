@@ -75,7 +75,7 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]
         found = shorten(version)
         raise InputError(f"{path}: this version reads simulations {VERSION}, not {found}")
     if data.pop("sha256", None) != _checksum(data):
-        raise InputError(f"{path}: changed since it was saved: its checksum is another one")
+        raise InputError(f"{path}: checksum mismatch: the file was modified or is corrupt")
     try:
         yield data
     except (BudgetExceeded, MemoryError, RoundingError):

@@ -87,7 +87,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
         for pair in pairs:
             if _features(pair) not in known:
                 raise AssertionError(
-                    f"wrong witness: {_touch(pair)} do not touch then; the truth is {_shown(truth)}"
+                    f"wrong witness: {_touch(pair)} do not touch at t; the truth is {_shown(truth)}"
                 )
 
 

@@ -32,7 +32,7 @@ def pairs_of(vertices=CORNERS, offsets=(0, 3, 4), pairs=((0, 1),), **options):
         ({"offsets": [0.0, 4.0]}, "offsets: not an array of integers: [0.0, 4.0]"),
         ({"offsets": []}, "offsets: shape (n + 1,) is needed, not (0,)"),
         ({"pairs": [(0, 2)]}, "pairs[0, 1]: there is no body 2 among 2"),
-        ({"pairs": [(1, 1)]}, "pairs[0]: two bodies are asked for, not 1 twice"),
+        ({"pairs": [(1, 1)]}, "pairs[0]: expected two different bodies, got 1 twice"),
         ({"pairs": [0, 1]}, "pairs: shape (m, 2) is needed, not (2,)"),
         ({"velocities": [(0, 1)]}, "velocities: 2 are needed, one for each body, not 1"),
         ({"velocities": [(0, 1), (0, -np.inf)]}, "velocities[1, 1]: not a finite number: -inf"),

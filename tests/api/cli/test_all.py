@@ -58,7 +58,7 @@ def test_options_of_the_first_contact_are_refused(scene, option, capsys):
 
     assert ended.value.code == 2
     assert capsys.readouterr().err == (
-        f"exactpt: --all: {option[0]} is for the first contact alone\n"
+        f"exactpt: --all: {option[0]} is supported only for the first contact\n"
     )
 
 

@@ -54,5 +54,5 @@ def test_no_contact_and_perhaps_one(scene, tmp_path, capsys):
 def test_options_about_the_first_contact_are_refused(scene, capsys):
     code, _, err = run(capsys, scene, "--enclosed", "--method", "pairs")
     assert code == 2
-    assert err == "exactpt: --enclosed: --method is for the first contact alone\n"
+    assert err == "exactpt: --enclosed: --method is supported only for the first contact\n"
     assert run(capsys, scene, "--enclosed", "--all")[0] == 2

@@ -146,7 +146,7 @@ def test_no_memory_is_one_line_and_no_bug(command, tmp_path, monkeypatch, capsys
     with pytest.raises(SystemExit) as end:
         main([name, "in.json", *options])
     out, err = capsys.readouterr()
-    assert (end.value.code, out, err) == (4, "", "exactpt: the memory is used up\n")
+    assert (end.value.code, out, err) == (4, "", "exactpt: memory limit exceeded\n")
     assert [path.name for path in tmp_path.iterdir()] == ["in.json"]
 
 

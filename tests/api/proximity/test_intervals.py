@@ -94,7 +94,7 @@ def test_the_end_belongs_to_the_time_span():
 
 def test_names():
     scene = Scene([Body("square", SQUARE), WALL], time=(0, 1))
-    with pytest.raises(InputError, match="not 'wall' twice"):
+    with pytest.raises(InputError, match="got 'wall' twice"):
         contact_intervals(scene, "wall", "wall")
     with pytest.raises(InputError, match="nobody"):
         contact_intervals(scene, "wall", "nobody")

@@ -72,12 +72,12 @@ def test_a_motion_is_kept_by_with_motion_and_at():
     ("parts", "told"),
     [
         ([{"vertices": BOX, "holes": [FAR]}], "a hole is outside of its outline: vertex 4 at"),
-        ([{"vertices": BOX, "holes": [HOLE, [(2, 2), (3, 2), (2, 3)]]}], "inside of another one"),
+        ([{"vertices": BOX, "holes": [HOLE, [(2, 2), (3, 2), (2, 3)]]}], "inside another hole"),
         ([{"vertices": BOX, "holes": [[(0, 1), (2, 1), (1, 2)]]}], "edge 3 .* meets edge 4"),
         ([{"vertices": BOX, "holes": [[(1, 1), (2, 2), (3, 3)]]}], "meets edge"),
         ([{"vertices": BOX, "holes": [HOLE, [(4, 4), (5, 4), (5, 5)]]}], "meets edge"),
-        ([BOX, HOLE], "a part is inside of another one: vertex 4"),
-        ([HOLE, BOX], "a part is inside of another one: vertex 0"),
+        ([BOX, HOLE], "a part is inside another part: vertex 4"),
+        ([HOLE, BOX], "a part is inside another part: vertex 0"),
         ([BOX, [(9, 3), (12, 3), (12, 4)]], "edge 1 .* meets edge"),
         ([BOX, [(0, 0), (0, 9), (9, 9), (9, 0)]], "meets edge"),
         ([[(0, 0), (1, 1)], FAR], "part 0: outline: a ring has at least 3 vertices, not 2"),
@@ -150,7 +150,7 @@ def test_one_hole_inside_of_another_among_many():
     Scene([Body("plate", outline, holes=holes)])
 
     holes.append([(12.25, 12.25), (12.5, 12.25), (12.25, 12.5)])
-    with pytest.raises(InputError, match="inside of another one: vertex 304"):
+    with pytest.raises(InputError, match="inside another hole: vertex 304"):
         Scene([Body("plate", outline, holes=holes)])
     holes[-1] = [(200, 200), (201, 200), (200, 201)]
     with pytest.raises(InputError, match="outside of its outline: vertex 304"):

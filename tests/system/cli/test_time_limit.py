@@ -71,7 +71,7 @@ def test_what_never_ends_is_interrupted(scene, monkeypatch, capsys, name, patche
     monkeypatch.setattr("exactpt.pairs.search._Search.run", for_ever)
 
     assert run(name, scene, 0.05) == 4
-    assert "the time is used up" in capsys.readouterr().err
+    assert "time limit exceeded" in capsys.readouterr().err
     assert left_behind(scene.parent) == []
 
 
@@ -113,7 +113,7 @@ def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
 
     said = capsys.readouterr()
     assert json.loads(said.out)["reached"] is None
-    assert said.err == "exactpt: the time is used up\n"
+    assert said.err == "exactpt: time limit exceeded\n"
 
 
 @pytest.mark.parametrize("name", ["collide", "collide in words", "collide pairs"])
@@ -217,4 +217,4 @@ def test_coordinates_of_5000_digits_that_turn(tmp_path, name):
     )  # fmt: skip
 
     assert ended.returncode == 4
-    assert ended.stderr.startswith("exactpt: the time is used up")
+    assert ended.stderr.startswith("exactpt: time limit exceeded")

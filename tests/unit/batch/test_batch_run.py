@@ -134,7 +134,7 @@ def test_another_input_or_question_is_refused(scenes, tmp_path):
     part, journal = stopped(scenes, out)
     before = part.read_bytes(), journal.read_bytes()
 
-    other = "of another question or input"
+    other = "of another query or input"
     assert other in refusal(scenes, out, Question(until=3))
     text = scenes.read_text()
     scenes.write_text(text.replace("0", "1", 1))
@@ -156,7 +156,7 @@ def test_files_that_are_no_batch_are_refused(scenes, tmp_path):
         journal.write_bytes(head + b"\n" + wrong + b"\n")
         assert "not the journal of a batch" in refusal(scenes, out)
     journal.write_bytes(head + b'\n[0, 1, "x", 1, 1, 0, "", 0, 99999999]\n')
-    assert "answers are missing" in refusal(scenes, out)
+    assert "answers of the journal are missing" in refusal(scenes, out)
 
 
 def test_an_output_that_exists_is_left_alone(scenes, tmp_path):
@@ -177,7 +177,7 @@ def test_two_batches_do_not_write_the_same_answers(scenes, tmp_path):
 
     run(scenes, out, report=report)
 
-    assert set(seen) == {f"{out}.journal: another batch writes it"}
+    assert set(seen) == {f"{out}.journal: locked by another batch"}
     assert out.read_text() == EXPECTED
 
 
@@ -384,14 +384,14 @@ def test_a_budget_is_one_of_each_scene(tmp_path):
     summary = run(scenes, out, Question(max_memory=1))
 
     assert summary.failures == 2
-    assert summary.first == "line 1: the memory is used up"
+    assert summary.first == "line 1: memory limit exceeded"
 
 
 @pytest.mark.parametrize("line", [SCENES[0], TURNING[0]])
 def test_no_time_at_all(line):
     (told,) = answers([line], Question(max_seconds=0))
 
-    assert told == {"error": "the time is used up"}
+    assert told == {"error": "time limit exceeded"}
 
 
 def test_workers_are_deaf_to_ctrl_c_from_their_first_moment_on():

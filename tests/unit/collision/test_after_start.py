@@ -272,7 +272,7 @@ def test_on_the_command_line(scene_file, capsys):
         (["--after-start", "--proof", "x"], "a proof is about all bodies"),
         (["--since", "3", "--proof", "x"], "--since: a proof is about the scene file"),
         (["--since", "30"], "--since: the start t = 30 is not before the end t = 20"),
-        (["--all", "--after-start"], "--after-start is for the first contact alone"),
+        (["--all", "--after-start"], "--after-start is supported only for the first contact"),
     ],
 )
 def test_refusals_on_the_command_line(scene_file, capsys, words, error):

@@ -146,6 +146,6 @@ def test_a_budget_of_events_holds_whoever_listens(level):
     driver = Driver(lambda: scene, observers=listeners, budget=Budget(2, None))
     driver.start("greedy")
 
-    with pytest.raises(BudgetExceeded, match="the number of events is used up") as spent:
+    with pytest.raises(BudgetExceeded, match="limit of events exceeded") as spent:
         driver.run(scene.end)
     assert spent.value.reached == driver.reached() > scene.start

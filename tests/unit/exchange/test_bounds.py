@@ -280,7 +280,7 @@ def test_conversion_within_a_time(folder, capsys, monkeypatch):
     monkeypatch.setattr(bodies.Body, "__init__", late)
 
     assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "900") == 4
-    assert capsys.readouterr().err == "exactpt: the time is used up\n"
+    assert capsys.readouterr().err == "exactpt: time limit exceeded\n"
     assert len(left) == 1
     assert 0 < left[0] <= 900 + GRACE
     assert not (folder / "out.json").exists()

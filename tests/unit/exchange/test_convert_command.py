@@ -176,7 +176,7 @@ def test_nothing_is_written_if_the_time_is_used_up_by_what_touches(tmp_path, mon
     """The hostile fuzzer found the file, and exit code 4."""
 
     def slow(scene):
-        raise BudgetExceeded("the time is used up", scene.start)
+        raise BudgetExceeded("time limit exceeded", scene.start)
 
     monkeypatch.setattr(initial, "initial_touches", slow)
     (tmp_path / "two.wkt").write_text(TOUCHING)

@@ -74,7 +74,8 @@ def test_dates_come_back(number, twos, fives):
 
 
 @pytest.mark.parametrize(
-    "seconds, says", [(QQ(1, 3), "no decimal number: '1/3'"), (QQ(10**12), "from 1 to 9999")]
+    "seconds, says",
+    [(QQ(1, 3), "needs a decimal number of seconds, got '1/3'"), (QQ(10**12), "from 1 to 9999")],
 )
 def test_what_is_no_date_is_not_written(seconds, says):
     with pytest.raises(InputError, match=says):
@@ -155,7 +156,7 @@ def test_what_mobilitydb_writes(tmp_path):
         ({"interpolation": "Step"}, "linear interpolation, not 'Step'"),
         ({"interpolations": ["Linear", "Quadratic"]}, "linear interpolation, not"),
         ({"dates": DATES[::-1]}, "datetimes do not increase"),
-        ({"dates": DATES[:1]}, "it is there at one time only"),
+        ({"dates": DATES[:1]}, "expected at least two timestamps"),
         ({"dates": [DATES[0], "noon"]}, "datetime 1: not a date with a time: 'noon'"),
         ({"coordinates": [[0, 0]]}, "2 datetimes for 1 positions"),
         ({"coordinates": [[0, 0], [1]]}, "position 1: not a position"),
@@ -249,7 +250,7 @@ def test_scenes_come_back(tmp_path, suffix):
             Body(
                 "b", [(0, 0)], Pieces([("1/3", Translation([0, 1])), (None, Translation(["1/3"]))])
             ),
-            "no decimal number: '1/3'",
+            "needs a decimal number of seconds, got '1/3'",
         ),
     ],
 )

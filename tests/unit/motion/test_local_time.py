@@ -94,7 +94,7 @@ def test_an_affine_step():
     [
         ([], "at least one step"),
         ([(0, Velocity(1, 0))], "step 0: a duration is positive: 0"),
-        ([(None, Velocity(1, 0)), (1, Velocity(1, 0))], "step 0: only the last one"),
+        ([(None, Velocity(1, 0)), (1, Velocity(1, 0))], "step 0: only the last step"),
         ([(1, "east")], "not a motion in local time: 'east'"),
         ([("one", Velocity(1, 0))], "not a number: 'one'"),
     ],

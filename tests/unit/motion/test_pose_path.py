@@ -133,7 +133,7 @@ def test_neighbours_agree_exactly():
             [0, 1, 2],
             [(0, 0, 0)],
             {},
-            "one pose fewer than times, and at least one: 3 times, 1 poses",
+            "at least one pose, and one pose fewer than times: 3 times, 1 poses",
         ),
         ([2, 2], [(0, 0, 0)], {}, "times increase: 2, then 2"),
         ([0, 1], [(0, 0)], {}, "piece 0: a pose is x, y and an angle"),

@@ -163,7 +163,7 @@ def test_first_within_of_some_pairs(seed, norm):
 def test_a_pair_with_a_selection_is_refused():
     scene = room()
     for selection in ({"between": [("ball", "box")]}, {"ignoring": [("ball", "far")]}):
-        with pytest.raises(InputError, match="name no two bodies"):
+        with pytest.raises(InputError, match="not supported for two named bodies"):
             first_within(scene, "ball", "box", 1, norm="euclidean", **selection)
     with pytest.raises(InputError, match="there is no body 'nobody'"):
         contacts(scene, between=[("ball", "nobody")])

@@ -120,7 +120,7 @@ def test_without_a_norm_it_is_the_maximum():
     [
         (("wall", "tip", -1), {}, "a distance is not negative: -1"),
         (("wall", "nobody", 1), {}, "there is no body 'nobody'"),
-        (("wall", "wall", 1), {}, "two bodies are asked for"),
+        (("wall", "wall", 1), {}, "expected two different bodies"),
         (("wall", "tip", 1), {"norm": "l1"}, "no norm 'l1'; there are: euclidean, max, x, y"),
         (("wall", "tip"), {}, "either a distance or its square"),
         (("wall", "tip", 1), {"distance_squared": 1}, "either a distance or its square"),

@@ -178,7 +178,7 @@ def test_bug_the_frames_of_a_film_had_no_time_limit(tmp_path, ending):
         told.append((k, count))
         budget._LIMITS.look = budget._LIMITS.deadline = 0.0
 
-    with pytest.raises(BudgetExceeded, match="the time is used up"):
+    with pytest.raises(BudgetExceeded, match="time limit exceeded"):
         draw_module.draw(small(), tmp_path / f"x{ending}", max_seconds=1000, done=done)
     assert told == [(1, 161)]
     assert list(tmp_path.iterdir()) == []

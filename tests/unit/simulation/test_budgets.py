@@ -74,7 +74,7 @@ def test_degree_2000(search, where):
     scene = of_degree(2000)
 
     if where == "main":
-        with pytest.raises(BudgetExceeded, match="the time is used up"):
+        with pytest.raises(BudgetExceeded, match="time limit exceeded"):
             SEARCHES[search](scene, max_seconds=0.5)
     else:
         error, seconds = in_thread(lambda: SEARCHES[search](scene, max_seconds=0.5))
@@ -101,7 +101,7 @@ def test_the_limit_is_asked_for_everywhere(monkeypatch, family, tiling):
     def count():
         calls["now"] += 1
         if calls["now"] == calls["last"]:
-            raise BudgetExceeded("the time is used up", None)
+            raise BudgetExceeded("time limit exceeded", None)
 
     for module in list(sys.modules.values()):
         if module is budget:  # modules that are imported while this test runs keep the real one
@@ -145,7 +145,7 @@ def test_memory(monkeypatch):
     monkeypatch.setattr(budget, "resident_memory", lambda: 2 * 10**9)
 
     for search in SEARCHES.values():
-        with pytest.raises(BudgetExceeded, match="the memory is used up"):
+        with pytest.raises(BudgetExceeded, match="memory limit exceeded"):
             search(generate("convex", 3), max_memory=10**9)
         search(generate("row", 3), max_memory=3 * 10**9)
 
@@ -186,7 +186,7 @@ def test_a_command_with_little_memory(tmp_path, capsys, command):
         main([command, str(tmp_path / "scene.json"), "--max-memory", "1"])
 
     assert end.value.code == 4
-    assert "exactpt: the memory is used up" in capsys.readouterr().err
+    assert "exactpt: memory limit exceeded" in capsys.readouterr().err
 
 
 def test_ctrl_c_while_modules_are_imported():
@@ -230,15 +230,15 @@ def test_straight_motion_asks_too(monkeypatch, number):
     scene = many_moving(number)
 
     assert first_contact(scene, max_memory=3 * 10**9, max_seconds=60) is None
-    with pytest.raises(BudgetExceeded, match="the memory is used up"):
+    with pytest.raises(BudgetExceeded, match="memory limit exceeded"):
         first_contact(scene, max_memory=10**9)
-    with pytest.raises(BudgetExceeded, match="the time is used up"):
+    with pytest.raises(BudgetExceeded, match="time limit exceeded"):
         first_contact(scene, max_seconds=0)
 
 
 def test_in_the_search_of_straight_motion_the_start_is_proved(monkeypatch):
     def stop():
-        raise BudgetExceeded("the time is used up", None)
+        raise BudgetExceeded("time limit exceeded", None)
 
     monkeypatch.setattr("exactpt.pairs.boxes.ask", stop)
 
@@ -254,7 +254,7 @@ def test_a_restored_run_and_a_copy_have_little_memory(tmp_path, monkeypatch):
     monkeypatch.setattr(budget, "resident_memory", lambda: 2 * 10**12)
 
     for run in (simulation.copy, restored.copy, lambda: restored):
-        with pytest.raises(BudgetExceeded, match="the memory is used up"):
+        with pytest.raises(BudgetExceeded, match="memory limit exceeded"):
             list(run().run())
 
 
@@ -266,7 +266,7 @@ def test_collide_with_little_memory(tmp_path, capsys, all_of_them):
         main(["collide", str(tmp_path / "scene.json"), "--max-memory", "1", *all_of_them])
 
     assert end.value.code == 4
-    assert "exactpt: the memory is used up" in capsys.readouterr().err
+    assert "exactpt: memory limit exceeded" in capsys.readouterr().err
 
 
 def test_bug_repairs_without_end_are_ended_by_the_budget():

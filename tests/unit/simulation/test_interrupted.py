@@ -78,7 +78,7 @@ class Interrupting:
     def __call__(self):
         self.now += 1
         if self.now == self.last:
-            raise BudgetExceeded("the memory is used up", None)
+            raise BudgetExceeded("memory limit exceeded", None)
 
     def at(self, last):
         self.now, self.last = 0, last
@@ -142,7 +142,7 @@ def test_bug_a_simulation_that_has_met_claimed_the_time_of_the_contact(name):
 
 
 def late(*args, **options):
-    raise BudgetExceeded("the memory is used up", None)
+    raise BudgetExceeded("memory limit exceeded", None)
 
 
 @pytest.mark.plain

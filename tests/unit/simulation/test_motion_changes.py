@@ -205,7 +205,7 @@ def test_plans_that_are_for_another_body_are_refused():
     simulation = at(two_boxes(), 2)
     with pytest.raises(InputError, match="no body 'middle'"):
         simulation.set_motion("middle", Translation())
-    with pytest.raises(InputError, match="is no plan for"):
+    with pytest.raises(InputError, match="is not a motion of"):
         simulation.set_motion("left", Body("left", [(0, 0), (1, 0), (1, 1)]))
 
 

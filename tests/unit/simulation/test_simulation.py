@@ -93,7 +93,7 @@ def test_the_number_of_events_is_bounded(most):
 
 
 def test_the_time_is_bounded():
-    with pytest.raises(BudgetExceeded, match="time is used up"):
+    with pytest.raises(BudgetExceeded, match="time limit exceeded"):
         list(Simulation(generate("mixed_shapes", 0), max_seconds=0).run())
 
 

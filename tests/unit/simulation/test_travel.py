@@ -278,10 +278,10 @@ def test_bug_snapshots_and_answers_travel(way):
 @ways
 def test_bug_a_spent_budget_travels(way):
     """It was an error without its second argument: a process that raised it broke its pool."""
-    spent = way(BudgetExceeded("the time is used up", Fraction(1, 3)))
+    spent = way(BudgetExceeded("time limit exceeded", Fraction(1, 3)))
 
     assert spent.reached == Fraction(1, 3)
-    assert str(spent) == "the time is used up at t = 0.3333333333333333"
+    assert str(spent) == "time limit exceeded at t = 0.3333333333333333"
 
 
 @ways

@@ -153,7 +153,7 @@ def test_advance_many_stops_between_events(monkeypatch):
     def ask():
         calls.append(kinetic.stats.total)
         if len(calls) == 3:
-            raise BudgetExceeded("the time is used up", None)
+            raise BudgetExceeded("time limit exceeded", None)
 
     monkeypatch.setattr(tilings, "ask", ask)
     with pytest.raises(BudgetExceeded):
