@@ -14,9 +14,8 @@ import numpy as np
 
 from benchmarks.output import Output, Row
 from benchmarks.shapes import crowd
-from benchmarks.timing import timed
+from benchmarks.timing import beside, in_turn, near
 from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -66,12 +65,12 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                 "arrays": partial(_from_arrays, _arrays_of(scene)),
                 "bodies": partial(_from_bodies, _arrays_of(scene)),
             }
-            found = []
-            for way, build in asked.items():
-                contact, built, answered = _least(build, sizes.runs)
-                found.append(contact)
-                rows.append(_row(density, k, way, built, answered, contact))
-            _audit(density, k, found)
+            what = f"{k} bodies, {density}"
+            builds = {way: partial(partial, build) for way, build in asked.items()}
+            built = {way: seconds for way, (_, seconds) in in_turn(builds, sizes.runs).items()}
+            ways = {way: partial(_asking, build) for way, build in asked.items()}
+            contact, answered = beside(what, ways, sizes.runs, lambda c: c and c.to_json())
+            rows += [_row(density, k, w, built[w], answered[w], contact) for w in asked]
     output.table("crowds", rows)
 
 
@@ -105,15 +104,8 @@ def _from_bodies(given: _Arrays) -> Scene:
     )
 
 
-def _least(build: Callable[[], Scene], runs: int) -> tuple[Contact | None, float, float]:
-    """The first contact, and the least seconds to build the scene and to answer."""
-    contact, times = None, []
-    for _ in range(runs):
-        scene, built = timed(build)
-        contact, answered = timed(partial(first_contact, scene))
-        times.append((built, answered))
-    least = (min(column) for column in zip(*times, strict=True))
-    return contact, next(least), next(least)
+def _asking(build: Callable[[], Scene]) -> Callable[[], Contact | None]:
+    return partial(first_contact, build())
 
 
 def _row(
@@ -125,11 +117,5 @@ def _row(
         "scene of": way,
         "ms to build": 1000.0 * built,
         "ms to answer": 1000.0 * answered,
-        "time": None if contact is None else float(contact.time),
+        "time": near(contact),
     }
-
-
-def _audit(density: str, bodies: int, found: Sequence[Contact | None]) -> None:
-    one, other = (None if c is None else c.to_json() for c in found)
-    if one != other:
-        raise AuditError(f"arrays and bodies disagree about {bodies} bodies, {density}: {found}")

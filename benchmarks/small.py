@@ -7,10 +7,10 @@ milliseconds for one question. Every answer is compared with that of another met
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from random import Random
-from typing import Final, NamedTuple, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias
 
 from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import Method, UnsuitableScene, error_of
@@ -19,9 +19,8 @@ from benchmarks.methods.with_ipctk import with_tight_inclusion
 from benchmarks.methods.with_pymunk import with_pymunk
 from benchmarks.methods.with_shapely import with_shapely
 from benchmarks.output import Output, Row
-from benchmarks.timing import fastest, timed
+from benchmarks.timing import beside, time_of, timed
 from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.body import Body
@@ -83,15 +82,6 @@ def _row(
     }
 
 
-def _time(contact: Contact | None) -> AlgebraicNumber | None:
-    return None if contact is None else contact.time
-
-
-def _audit(question: str, found: Times, expected: Times) -> None:
-    if list(found) != list(expected):
-        raise AuditError(f"two ways disagree about {question}: {found}, {expected}")
-
-
 def _polygon(rng: Random, x: float, y: float, corners: int) -> Points:
     """A convex polygon on a circle of radius 1 around (x, y)."""
     turn = rng.uniform(0.0, 2.0 * math.pi)
@@ -121,17 +111,20 @@ def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
             for a, b, u, v in given
         ]
 
-    def answer(method: str) -> Times:
-        return [_time(first_contact(scene, method=method)) for scene in build()]
+    def answer(search: Callable[[Scene], Contact | None]) -> Times:
+        return [time_of(search(scene)) for scene in build()]
 
     question, count = "two triangles", sizes.triangles
-    expected = [_time(first_contact_allpairs(scene)) for scene in build()]
+    searches = {m: partial(first_contact, method=m) for m in ("auto", "kinetic")}
+    ways = {name: partial(partial, answer, search) for name, search in searches.items()}
+    ways["reference"] = partial(partial, answer, first_contact_allpairs)
+    expected, least = beside(question, ways, sizes.runs)
     seconds = min(timed(build)[1] for _ in range(sizes.runs))
     rows = [_row(question, "exactpt, scene alone", seconds, count, [])]
-    for method in ("auto", "kinetic"):
-        found, seconds = fastest(partial(answer, method), sizes.runs)
-        _audit(question, found, expected)
-        rows.append(_row(question, f"exactpt, scene and {method}", seconds, count, found, 0.0))
+    rows += [
+        _row(question, f"exactpt, scene and {name}", least[name], count, expected, 0.0)
+        for name in searches
+    ]
     others = [CLOSED_FORM, with_shapely(1000, bisect=True), with_pymunk(1000)]
     for other in (*others, with_tight_inclusion(1e-6, 32), BOX2D):
         if other.package is None or output.has(other.package):
@@ -177,17 +170,20 @@ def _crowd(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
     question = f"{sizes.bodies} convex bodies"
     seconds = min(timed(build)[1] for _ in range(sizes.runs))
     rows = [_row(question, "exactpt, scene alone", seconds, 1, [])]
-    expected = [_time(first_contact(build(), method="kinetic"))]
-    least = math.inf
-    for _ in range(sizes.runs):
-        contact, seconds = timed(partial(first_contact, build()))
-        least = min(least, seconds)
-        _audit(question, [_time(contact)], expected)
-    return [*rows, _row(question, "exactpt, auto", least, 1, expected, 0.0)]
+    return [*rows, *_by_methods(question, build, sizes.runs, {"method": "kinetic"})[:1]]
 
 
-def _asked(scene: Scene) -> Times:
-    return [_time(first_contact(scene))]
+def _by_methods(
+    question: str, build: Callable[[], Scene], runs: int, *others: dict[str, Any]
+) -> list[Row]:
+    """The default method, and others by their options, of scenes built anew."""
+    ways = {
+        f"exactpt, {' '.join(map(str, options.values())) or 'auto'}": options
+        for options in ({}, *others)
+    }
+    asks = {name: lambda o=o: partial(first_contact, build(), **o) for name, o in ways.items()}
+    contact, seconds = beside(question, asks, runs, time_of)
+    return [_row(question, name, seconds[name], 1, [time_of(contact)], 0.0) for name in ways]
 
 
 def _discs(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG001
@@ -204,11 +200,8 @@ def _discs(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
             Body(f"b{i}", [(x + u, y + v) for u, v in shape], motion, radius=radius)
             for i, (x, y, motion) in enumerate(given)
         ]
-        scene = Scene(bodies, (0, 10))
-        expected = [_time(first_contact(scene, exact_only=True))]
-        found, least = fastest(partial(_asked, scene), sizes.runs)
-        _audit(what, found, expected)
-        rows.append(_row(f"{sizes.bodies} {what}", "exactpt, auto", least, 1, found, 0.0))
+        build = partial(Scene, bodies, (0, 10))
+        rows += _by_methods(f"{sizes.bodies} {what}", build, sizes.runs, {"exact_only": True})[:1]
     return rows
 
 
@@ -227,18 +220,17 @@ def _plans(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
 
     def by_scenes() -> Times:
         scenes = (Scene([*obstacles, Body("shape", shape, m)], (0, 10)) for m in motions)
-        return [_time(first_contact(scene, ignoring=[names])) for scene in scenes]
+        return [time_of(first_contact(scene, ignoring=[names])) for scene in scenes]
 
     def by_planner() -> Times:
-        return list(map(_time, Planner(obstacles, (0, 10)).first_contacts(shape, motions)))
+        return list(map(time_of, Planner(obstacles, (0, 10)).first_contacts(shape, motions)))
 
     question = f"plans among {OBSTACLES} obstacles"
-    seconds, expected = timed(by_scenes)[::-1]
-    found, least = fastest(by_planner, sizes.runs)
-    _audit(question, found, expected)
+    asks = {"a scene each": lambda: by_scenes, "Planner": lambda: by_planner}
+    found, least = beside(question, asks, sizes.runs)
     return [
-        _row(question, "exactpt, a scene each", seconds, sizes.plans, expected, 0.0),
-        _row(question, "exactpt, Planner", least, sizes.plans, found, 0.0),
+        _row(question, f"exactpt, {name}", taken, sizes.plans, found, 0.0)
+        for name, taken in least.items()
     ]
 
 
@@ -253,16 +245,7 @@ def _pieces(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: AR
         return Scene([Body(f"b{i}", *body) for i, body in enumerate(given)], (0, 10))
 
     question = f"{CROWD} bodies of {sizes.pieces} pieces"
-    least, found = math.inf, None
-    for _ in range(sizes.runs):
-        found, seconds = timed(partial(first_contact, build()))
-        least = min(least, seconds)
-    rows = [_row(question, "exactpt, auto", least, 1, [_time(found)], 0.0)]
-    for tiling in ("lazy", "greedy"):
-        contact, seconds = timed(partial(first_contact, build(), tiling=tiling))
-        _audit(question, [_time(contact)], [_time(found)])
-        rows.append(_row(question, f"exactpt, {tiling}", seconds, 1, [_time(contact)], 0.0))
-    return rows
+    return _by_methods(question, build, sizes.runs, {"tiling": "lazy"}, {"tiling": "greedy"})
 
 
 def _path(rng: Random, x: int, y: int, count: int) -> Pieces:

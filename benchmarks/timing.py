@@ -9,16 +9,23 @@ from collections.abc import Callable, Mapping, Sequence
 from time import process_time
 from typing import TypeVar
 
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import resident_memory
+from exactpt.pairs.approach import Approach
+from exactpt.pairs.contact import Contact
 
 __all__ = [
+    "beside",
     "exponent",
     "fastest",
     "in_turn",
     "memory_of",
     "microseconds",
+    "near",
     "per_event",
     "resident",
+    "time_of",
     "timed",
 ]
 
@@ -61,9 +68,44 @@ def in_turn(
 
 
 def fastest(ask: Callable[[], T], runs: int) -> tuple[T, float]:
-    """The last answer, and the least processor time of some runs in seconds."""
-    found = [timed(ask) for _ in range(runs)]
-    return found[-1][0], min(seconds for _, seconds in found)
+    """The answer, and the least processor time of some runs in seconds."""
+    found = in_turn({"": lambda: ask}, runs)
+    return found[""]
+
+
+def beside(
+    question: str,
+    ways: Mapping[str, Callable[[], Callable[[], T]]],
+    runs: int,
+    value: Callable[[T], object] = lambda answer: answer,
+) -> tuple[T, dict[str, float]]:
+    """The answer to a question, and the least seconds of each way to it, see `in_turn`.
+
+    Args:
+        question: its name.
+        ways: by name, what prepares a way, which is not timed. The answer is that of the first.
+        runs: number of runs.
+        value: what is compared of an answer.
+
+    Raises:
+        AuditError: if two ways have different answers.
+    """
+    found = in_turn(ways, runs)
+    answers = [answer for answer, _ in found.values()]
+    if any(value(answer) != value(answers[0]) for answer in answers):
+        said = dict(zip(found, map(value, answers), strict=True))
+        raise AuditError(f"two ways disagree about {question}: {said}")
+    return answers[0], {name: seconds for name, (_, seconds) in found.items()}
+
+
+def time_of(contact: Contact | Approach | None) -> AlgebraicNumber | None:
+    """The exact time of an answer; None without one."""
+    return None if contact is None else contact.time
+
+
+def near(contact: Contact | Approach | None) -> float | None:
+    """The time of an answer for a table."""
+    return None if contact is None else float(contact.time)
 
 
 def microseconds(ask: Callable[[Q], T], questions: Sequence[Q]) -> tuple[float, list[T]]:

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 
 from benchmarks.output import Output, Row
 from benchmarks.shapes import crowd
-from benchmarks.timing import fastest
+from benchmarks.timing import fastest, near, time_of
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
@@ -48,13 +48,11 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     for name, scene in _crowds(sizes.bodies, seed).items():
         output.progress(f"within: {name}")
         contact, unit = fastest(partial(first_contact, scene), sizes.runs)
-        time = None if contact is None else float(contact.time)
-        rows.append(_row(name, sizes, "first_contact", unit, 1.0, time))
+        rows.append(_row(name, sizes, "first_contact", unit, 1.0, near(contact)))
         for d in DISTANCES:
-            found, seconds = fastest(partial(_within, scene, d), sizes.runs)
+            found, taken = fastest(partial(_within, scene, d), sizes.runs)
             _audit(scene, d, found)
-            at = None if found is None else float(found.time)
-            rows.append(_row(name, sizes, f"first_within {d}", seconds, seconds / unit, at))
+            rows.append(_row(name, sizes, f"first_within {d}", taken, taken / unit, near(found)))
     output.table("within", rows)
 
 
@@ -98,7 +96,5 @@ def _audit(scene: Scene, d: int, found: Approach | None) -> None:
     if found is not None and found.time == scene.start:
         return  # the search is for approaches after the start
     expected = ApproachSearch(scene, lambda _, __: QQ(d * d), [QQ(d) / 2] * len(scene.bodies)).run()
-    if (found is None) != (expected is None) or (
-        found is not None and expected is not None and found.time != expected.time
-    ):
+    if time_of(found) != (None if expected is None else expected.time):
         raise AuditError(f"two ways disagree about distance {d}: {found}, {expected}")

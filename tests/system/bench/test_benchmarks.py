@@ -401,7 +401,7 @@ def test_methods_that_disagree_are_an_error(monkeypatch):
     contact = SimpleNamespace(time=1, kind="vertex-edge", pairs=())
     monkeypatch.setattr(auto, "first_contact", lambda _, method: contact if method else None)
     with pytest.raises(AuditError, match="disagree about something"):
-        auto.beside("something", meeting(), {"a": {"method": ""}, "b": {"method": "b"}}, 1)
+        auto.by_methods("something", meeting(), {"a": {"method": ""}, "b": {"method": "b"}}, 1)
 
 
 def test_what_takes_long_is_asked_once(monkeypatch):
