@@ -1,4 +1,4 @@
-"""Indices of vertices, half-edges and certificates, which the type checker tells apart.
+"""Indices of vertices, half-edges and certificates, distinct types for the type checker.
 
 At run time, and for mypyc, they are plain integers. The index of a body has no type of its own: it
 is counted, computed (arc 2 i is the left extreme of body i) and read from arrays and files, and

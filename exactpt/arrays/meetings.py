@@ -73,8 +73,8 @@ def _first_meetings(r: Relative, cs: Sequence[Coefficient], span: Span) -> Meeti
     """Return the first meetings, given the polynomials that vanish while the vertex is on the line.
 
     A vertex is on the line of its edge at the zeros of the orientation. The first zero after the
-    start is looked at, and where the vertex surely is beside the edge then, the second. A zero
-    at the start is open, unless the vertex surely is beside the edge. At last, what is open is
+    start is looked at, and where the vertex surely is beside the edge there, the second. A zero
+    at the start is open, unless the vertex surely is beside the edge. At last, an open result is
     closed where the vertex is beside the edge at all times.
     """
     c0, e0 = cs[0]

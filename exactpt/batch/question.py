@@ -29,8 +29,8 @@ class Question:
 
     Attributes:
         every: whether all intervals of contact are wanted (`exactpt.contacts`).
-        distance: the first time at which two bodies are within this Euclidean distance is asked
-            for (`exactpt.first_within`).
+        distance: for the first time at which two bodies are within this Euclidean distance
+            (`exactpt.first_within`).
         until, since: an earlier end and a later start of the time span.
         method, tiling, ignoring, after_start, between, exact_only: as of `exactpt.first_contact`.
         max_seconds: the wall-clock time for each scene.

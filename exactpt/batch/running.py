@@ -59,7 +59,7 @@ def run(
         answers: the file to write, which must not exist; Parquet if it ends in ``.parquet``.
         question: the query; by default the first contact.
         jobs: number of processes; one is this process. (More are started anew: a script that
-            asks for them must be importable, see `multiprocessing`.)
+            uses more must be importable, see `multiprocessing`.)
         scheduler: the address of a Dask scheduler, instead.
         report: called with how much of the input is done, and with all of it.
 
@@ -123,5 +123,5 @@ def _all(journal: Journal, source: Source) -> list[Record]:
     records = [journal.records[start] for start in sorted(journal.records)]
     ends = [0, *(record.stop for record in records)]
     if [record.start for record in records] != ends[:-1] or ends[-1] < source.length:
-        raise InputError("the workers are gone before all scenes were answered")
+        raise InputError("the workers have ended before all scenes were processed")
     return records

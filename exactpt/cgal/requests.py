@@ -121,7 +121,7 @@ def _face_lines(faces: list[_TileFace], index: range) -> Iterator[str]:
     for i, face in enumerate(faces):
         cycle, corners = face["vertices"], face["corners"]
         if len(corners) != 3:
-            raise _BadTileError(f"face {i} is said to have {len(corners)} corners")
+            raise _BadTileError(f"face {i} has {len(corners)} corners")
         yield f"{len(cycle)} {_indices(cycle, index)} corners {_indices(corners, index)}"
 
 

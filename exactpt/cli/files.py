@@ -180,7 +180,7 @@ def generate(family: str, seed: int, output: Path | None) -> int:
     """Make a scene of a family; a seed gives the same scene on every machine.
 
     Many families are nearly or fully degenerate: bodies that touch, slide along each other, or
-    meet all at one time.
+    all touch at one time.
 
     \b
     Examples:

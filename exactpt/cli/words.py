@@ -38,7 +38,7 @@ def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> lis
 
 
 def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> list[str]:
-    """Return the intervals in which bodies meet, one line each."""
+    """Return the intervals in which bodies touch, one line each."""
     if not intervals:
         return answer_in_words(scene, None)
     return [
@@ -50,7 +50,7 @@ def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> li
 
 
 def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
-    """Return bounds of the time of the first contact, and the pairs that may meet first."""
+    """Return bounds of the time of the first contact, and the pairs that may touch first."""
     if found is None:
         return answer_in_words(scene, None)
     pairs = [f"  {name_in_words(a)} and {name_in_words(b)} may meet first" for a, b in found.pairs]

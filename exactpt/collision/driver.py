@@ -1,7 +1,7 @@
 """The driver of a tiling: from event to event, up to a time or to the first contact.
 
 Nothing else calls `Tiling.advance` or `Tiling.advance_many`. Whoever follows a run is an
-`Observer` and declares what it listens to; the driver requests no more from the tiling.
+`Observer` and declares the callbacks that it needs; the driver requests no more from the tiling.
 """
 
 from __future__ import annotations

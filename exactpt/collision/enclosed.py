@@ -255,7 +255,7 @@ class _Search:
 
 
 def _unturned(body: Body, t: QQ) -> Body | None:
-    """Return a body at its true place at t; None if its true angle is not 0 then, or not known."""
+    """Return a body at its true place at t; None if its true angle at t is not 0, or not known."""
     spin = body.motion
     if isinstance(spin, PosePath):
         x, y, angle = spin._pose(t)

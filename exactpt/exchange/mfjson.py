@@ -286,7 +286,7 @@ def _moving(scene: Scene, i: int, where: str) -> dict[str, object]:
         if any(max(len(p.x), len(p.y)) > 2 or len(p.w) > 1 for p in tracks):
             raise InputError(
                 f"{where}: its vertices do not move straight from t = {show(t)} on, which moving "
-                "features cannot say: write a scene (.json)"
+                "features cannot represent: write a scene (.json)"
             )
     shapes = [shapes_at(scene, t)[i] for t in times]
     try:

@@ -108,7 +108,7 @@ _UNLIMITED: Final = contextlib.nullcontext()
 
 @final
 class Budget:
-    """What a run may still use.
+    """The remaining bounds of a run.
 
     Args:
         events: maximum number of events; None for no limit.

@@ -251,7 +251,7 @@ class Pieces(_Given):
         ends: list[QQ] = []
         for end, _ in pieces[:-1]:
             if end is None:
-                raise InputError("only the last piece may go on for ever")
+                raise InputError("only the last piece may have no end")
             ends.append(rational(end))
         for _, motion in pieces:
             if not hasattr(motion, "track"):

@@ -193,7 +193,7 @@ class PosePath(Pieces):
 
         Args:
             pieces: as for `Pieces`: rigid motions about the origin, the first until the first time,
-                the last from the last time on, and in no other one two pieces of the path.
+                the last from the last time on, and in no other piece two pieces of the path.
             times: see `PosePath`.
             poses: see `PosePath`.
             error: see `PosePath`.

@@ -165,7 +165,7 @@ class FreeSpace:
         Raises:
             InputError: if one of the points is in the interior of a body.
             UnreachableError: if no path leads from one to the other, since one of them is in a
-                hole of a body, or on its edge, and the other one is not.
+                hole of a body, or on its edge, and the other is not.
         """
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).shortest(p, q)
@@ -254,7 +254,7 @@ class FreeSpace:
         """Return the bodies connected to a body by a diagonal, in the order of the scene.
 
         The next body to touch this one is among them at the time of contact: a vertex that is
-        about to meet an edge is joined to an end of it.
+        about to touch an edge is joined to an end of it.
 
         Raises:
             InputError: if there is no such body.

@@ -3,7 +3,7 @@
 A new motion starts at a rational time t, at which it must leave every vertex in place. All
 coordinates are exact; so if each motion were computed from positions that result from earlier
 motions, its coefficients could become ever longer. `onward` avoids this by a translation whose
-velocity is rounded to a grid of step 2^-g, say. Its constant term is
+velocity is rounded to a grid of step 2^-g. Its constant term is
 
     position(t) - velocity * t = (old constant) + (old velocity - velocity) * t,
 

@@ -22,7 +22,7 @@ class Choice(NamedTuple):
     """The choice of a tiling.
 
     Attributes:
-        asked: the requested tiling: "auto" or one of `TILINGS`.
+        requested: the tiling of the caller: "auto" or one of `TILINGS`.
         name: the name of the one chosen at the start.
         exact_only: whether the float filters are off.
     """

@@ -67,7 +67,7 @@ class Simulation:
             changes of plans, ``1.proof`` with ``1.scene.json``, and so on. The last part ends
             with a contact, at the end of the time span, or by `end_proof`. A copy, or a
             restored simulation, writes none.
-        record: whether the run is remembered, for `history` and `draw`. Each change of plans then
+        record: whether the run is remembered, for `history` and `draw`. Each change of motions
             takes time linear in the number of bodies. A copy, or a restored simulation, remembers
             nothing.
 
@@ -318,7 +318,7 @@ class Simulation:
         return self.space().ray_cast(origin, direction)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
-        """Return True if no body meets a segment now, see `FreeSpace.is_free`."""
+        """Return True if no body intersects a segment now, see `FreeSpace.is_free`."""
         return self.space().is_free(p, q)
 
     def path(self, start: PointLike, goal: PointLike) -> answers.Path:

@@ -1,7 +1,7 @@
 """The truth that others test against: hard questions about two bodies, and certain answers.
 
-`check` calls any function for the time of impact of two bodies, over families of questions
-that hurt (`FAMILIES`), and counts what is right, missed, invented, early, late and crashed; what
+`check` calls any function for the time of impact of two bodies, over families of hard
+questions (`FAMILIES`), and counts right, missed, invented, early, late and crashed; what
 it finds is shrunken, and becomes a pytest file. `assert_same_contact` compares one answer;
 `shrink` makes a scene smaller as long as something fails. `exactpt.testing.strategies` has what
 Hypothesis draws scenes from (pip install 'exactpt[testing]'). docs/testing.md is the tutorial.

@@ -175,7 +175,7 @@ def check(
         tolerance: the largest error of a time that counts as right. It forgives no contact that is
             missed or invented, however near.
         accept: the domain of ``toi``: True for the questions that it is made for, such as
-            ``lambda question: question.convex and question.time[0] == 0``. It gets no other one,
+            ``lambda question: question.convex and question.time[0] == 0``. It gets no others,
             also while a counterexample is shrunken; a family without such questions is left out.
 
     Raises:
@@ -272,7 +272,7 @@ def _judged(
     """Return the verdict about an answer, and the answer, which may be an exception."""
     try:
         answer = toi(question)
-    except Exception as error:  # what a wrong function does is a finding
+    except Exception as error:  # an exception of a wrong function is a finding
         return "crashed", error
     return verdict(truth.time, answer, tolerance), answer
 

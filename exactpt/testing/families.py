@@ -2,7 +2,7 @@
 
 Each puts a body that moves next to one at rest. `make_question` then disguises them: a symmetry of
 the square, a common velocity, another place, another start, and the bodies swapped. All
-numbers are multiples of small powers of two, so the doubles mean what the family says.
+numbers are multiples of small powers of two, so the doubles are meant exactly.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def corner_to_corner(rng: Random) -> Pass:
 
 
 def edge_to_edge(rng: Random) -> Pass:
-    """Two parallel edges that meet flat."""
+    """Two parallel edges that touch flat."""
     gap, shift = rng.randint(1, 6), rng.randint(-2, 2)
     moving = _moved(box(-2, 0, 2, rng.randint(1, 3)), -gap, shift)
     aside = _one_of(rng, 0, 0, QQ(1, 4))

@@ -67,7 +67,7 @@ def _next_piece(stream: BinaryIO) -> bytes:
 
 
 def _has_more(stream: BinaryIO) -> bool:
-    """Return True if more has come; false on Windows, where only sockets can tell."""
+    """Return True if more has come; false on Windows, where `select` takes only sockets."""
     return sys.platform != "win32" and bool(select.select([stream], [], [], 0)[0])
 
 

@@ -8,7 +8,7 @@
 ...     assert question.scene.bodies[0].name == "a"
 >>> test()
 
-All numbers are doubles, taken at their exact values. Hypothesis shrinks what is drawn; so does
+All numbers are doubles, taken at their exact values. Hypothesis shrinks the values drawn; so does
 `exactpt.testing.shrink`, if it is a scene.
 """
 

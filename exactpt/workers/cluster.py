@@ -22,7 +22,7 @@ def results_on(
     """Yield the results of items as they arrive; at most for a time in seconds.
 
     Args:
-        scheduler: the address of a Dask scheduler, whose workers can import what the work needs.
+        scheduler: the address of a Dask scheduler, whose workers can import its modules.
         work: the work on each item.
         todo: the items, taken a few ahead.
         seconds: the time of all; None for no limit.

@@ -48,7 +48,7 @@ class _Worker(Generic[Item, Result]):
             self.connection.send(item)
 
     def hear(self) -> list[Result]:
-        """Return the result, if that is what it says; raises EOFError if it has ended."""
+        """Return the result, if the message is a result; raises EOFError if it has ended."""
         try:
             is_result, message = self.connection.recv()
         except OSError:
@@ -76,8 +76,8 @@ def _deaf() -> Iterator[None]:
     """Put off Ctrl-C until the end of the context; processes started in it never receive it.
 
     They inherit the mask; starting the tracker of resources clears it, so that is done before.
-    Here another thread, one of numpy say, may take the signal, and Python would interrupt this
-    one: a process that has been started by half prints a traceback.
+    Here another thread, one of numpy for example, may take the signal, and Python would interrupt
+    this one: a process that has been started by half prints a traceback.
     """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield

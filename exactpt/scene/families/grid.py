@@ -74,7 +74,7 @@ def _paths(rng: Random, ring: list[Point]) -> list[tuple[Polynomial, Polynomial]
 
 
 def _path(rng: Random, degree: int) -> Polynomial:
-    """A polynomial that is 0 at t = 0, often for ever."""
+    """A polynomial that is 0 at t = 0, often identically."""
     return Polynomial([0, *rng.choices([QQ(c) for c in (0, 0, 1, -1, 2, "1/2")], k=degree)])
 
 

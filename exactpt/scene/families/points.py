@@ -90,7 +90,7 @@ def grid_points(rng: Random) -> Scene:
 
 
 def point_convoy(rng: Random) -> Scene:
-    """Points of a small grid with two or three velocities: many stay collinear for ever."""
+    """Points of a small grid with two or three velocities: many stay collinear."""
     n = rng.randint(3, 14)
     size = rng.randint(4, 6)
     choices: list[SimpleMotion] = [velocity(rng, 2) for _ in range(rng.randint(1, 3))]
@@ -118,7 +118,7 @@ def point_grids_passing(rng: Random) -> Scene:
 
 
 def points_in_line(rng: Random) -> Scene:
-    """Points on one line that turns or stretches for ever, and a few other points."""
+    """Points on one line that turns or stretches, and a few other points."""
     n = rng.randint(3, 9)
     # Point i is at i * (x(t), y(t)).
     a, b, c, d = (rng.randint(-2, 2) for _ in range(4))

@@ -163,10 +163,10 @@ def _toothed(rng: Random, a: Point, b: Point, gap: int) -> list[Point]:
 def _add_frame(
     rng: Random, bodies: list[Body], at: Point, size: tuple[int, int], depth: int
 ) -> None:
-    """Add a box with one or two holes, and what is in these."""
+    """Add a box with one or two holes, and bodies in these."""
     (x, y), (width, height) = at, size
     name = f"frame{len(bodies)}"
-    bodies.append(Body(name, [(0, 0)]))  # its place is before what it contains
+    bodies.append(Body(name, [(0, 0)]))  # its place is before its contents
     place = len(bodies) - 1
     cuts = [0, width]
     if width >= 6 and rng.random() < 0.6:

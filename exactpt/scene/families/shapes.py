@@ -86,7 +86,7 @@ def box(x: QQ | int, y: QQ | int, width: QQ | int = 2, height: QQ | int = 2) -> 
 
 
 def is_simple(body: Body) -> bool:
-    """Whether a polygon or chain is simple at t = 0, as a scene requires."""
+    """Return True if a polygon or chain is simple at t = 0, as a scene requires."""
     try:
         Scene([body], (0, 1))
     except InputError:
