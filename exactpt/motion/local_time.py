@@ -52,8 +52,8 @@ def in_local_time(
 ) -> Pieces:
     """Motions one after another, each in the time since it began.
 
-    Each begins with the translation with which the one before it ended: three steps to the right
-    and two upwards are
+    Each begins where the one before it ended; constants of its translation are added to that.
+    Three steps to the right and two upwards are
 
     >>> right, up = Translation([0, 1]), Translation(0, [0, 1])
     >>> in_local_time([(3, right), (2, up)], start=10).until

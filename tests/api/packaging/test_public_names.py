@@ -1,6 +1,6 @@
-"""What was public in 0.1.0 is still there: names, attributes and parameters.
+"""What was public in 0.1.0 is still there: names, attributes and parameters; no circle of imports.
 
-One that is to go keeps an alias for a version, which warns.
+A name that is to go keeps an alias for a version, which warns.
 """
 
 import inspect
@@ -35,3 +35,19 @@ def test_a_public_name_of_the_first_version_is_still_there(line, made):
     if attribute:
         found = getattr(found, attribute)
     assert not parameter or parameter in inspect.signature(found).parameters
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    """Imports inside of functions count, those for the type checker alone do not."""
+    grimp = pytest.importorskip("grimp")  # of import-linter: not among what the tests alone need
+    graph = grimp.build_graph("exactpt", exclude_type_checking_imports=True)
+    left = {
+        module: set(graph.find_modules_directly_imported_by(module)) for module in graph.modules
+    }
+    assert len(left) > 300
+    assert sum(map(len, left.values())) > 2000
+
+    while free := {module for module, imported in left.items() if not imported & left.keys()}:
+        left = {module: imported for module, imported in left.items() if module not in free}
+
+    assert sorted(left) == []

@@ -1,12 +1,14 @@
 """What the documents tell a reader to type works, and what they point to is there."""
 
 import re
+import runpy
 import tomllib
 from pathlib import Path
 
 import pytest
 from folding import every
 
+import exactpt
 from docs.draw_demo import drawn
 from docs.draw_gallery import blocks, run
 
@@ -85,3 +87,9 @@ def test_what_the_architecture_names_is_there():
     defined = set(re.findall(r"(?:def |class |^|self\.)(\w+)(?=[(:]| *[:=])", source, re.MULTILINE))
     folders = {p.stem for p in [*ROOT.iterdir(), *(ROOT / "exactpt").iterdir()]}
     assert sorted(names - defined - folders) == []
+
+
+def test_the_picture_of_a_proof_is_drawn_from_one_that_is_accepted():
+    script = runpy.run_path(str(ROOT / "docs" / "draw_proof.py"))
+    assert exactpt.prove(script["SCENE"], tiling="lazy").check().startswith("accepted: ")
+    assert script["picture"]() == (ROOT / "docs" / "proof.svg").read_text(encoding="utf-8")

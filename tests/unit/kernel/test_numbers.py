@@ -3,7 +3,7 @@
 import math
 import re
 import time
-from decimal import Decimal
+from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 
 import gmpy2
@@ -14,7 +14,7 @@ from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
 from oracles import exact, is_nearest_double
-from strategies import as_rational, doubles, wide_fractions
+from strategies import as_rational, doubles, fractions, wide_fractions
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -32,6 +32,7 @@ from exactpt.kernel.numbers import (
     shorten,
     sign,
 )
+from exactpt.kernel.quotients import decimal_quotient
 
 LARGEST = Fraction(math.nextafter(math.inf, 0.0))
 SMALLEST = Fraction(5e-324)
@@ -322,3 +323,50 @@ def test_a_shortened_text_is_one_line_within_the_limit(text, limit):
 def test_bug_a_number_longer_than_python_writes_is_told_in_a_message():
     with pytest.raises(InputError, match="int with too many digits"):
         rationals(10**5000, 2, "a point has two coordinates")
+
+
+def poly(*coefficients):
+    return tuple(map(ZZ, coefficients))
+
+
+def nearest(value, digits):
+    context = Context(digits, ROUND_HALF_EVEN)
+    return context.divide(Decimal(value.numerator), Decimal(value.denominator))
+
+
+ROOT_OF_TWO = AlgebraicNumber.root([-2, 0, 1], 1, 2)
+
+
+@given(t=fractions, digits=st.integers(1, 50))
+def test_at_a_rational_time_it_is_the_quotient_rounded(t, digits):
+    found = decimal_quotient(poly(1, 3, 2), poly(2, 0, 1), AlgebraicNumber(t), digits)
+
+    assert found == nearest((1 + 3 * t + 2 * t * t) / (2 + t * t), digits)
+
+
+@given(digits=st.integers(1, 300))
+def test_the_square_root_of_two(digits):
+    expected = Context(digits, ROUND_HALF_EVEN).sqrt(Decimal(2))
+
+    assert decimal_quotient(poly(0, 1), poly(1), ROOT_OF_TWO, digits) == expected
+
+
+@pytest.mark.parametrize("halfway", [Fraction(5, 2), Fraction(7, 2), Fraction(-25, 2)])
+def test_a_value_halfway_between_two_decimals_becomes_the_even_one(halfway):
+    """The quotient (p + t^3 - 2 t) / q is p / q, though neither t nor its bounds are rational."""
+    p, q = halfway.numerator, halfway.denominator
+    digits = len(str(abs(p) // q))
+
+    found = decimal_quotient(poly(p, -2, 0, 1), poly(q), ROOT_OF_TWO, digits)
+
+    assert found == nearest(halfway, digits)
+    assert found % 2 == 0
+
+
+def test_zero_is_found():
+    assert decimal_quotient(poly(-2, 0, 1), poly(3, 1), ROOT_OF_TWO, 20) == 0
+
+
+def test_no_digits_are_refused():
+    with pytest.raises(InputError, match="digits: at least 1"):
+        decimal_quotient(poly(1), poly(1), ROOT_OF_TWO, 0)

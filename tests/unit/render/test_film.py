@@ -7,6 +7,7 @@ from itertools import pairwise
 import pytest
 from render_scenes import apart, demo, overlapping, rebuilt, small
 
+from exactpt.collision.driver import Driver
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.pseudotriangulation.snapshot import snapshot
@@ -14,6 +15,7 @@ from exactpt.render.data import data_of
 from exactpt.render.film import film_of
 from exactpt.render.fixed import BITS, fixed, near
 from exactpt.render.page import page_of
+from exactpt.render.tracker import Tracker
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
 
@@ -153,3 +155,35 @@ def test_a_page_needs_nothing_else_and_is_the_same_every_time():
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_page_with_a_theme(theme):
     assert f'<html lang="en" data-theme="{theme}">' in page_of(film_of(apart()), theme=theme)
+
+
+@pytest.mark.parametrize(
+    "family, tiling",
+    [
+        ("convex", "lazy"),
+        ("convex", "greedy"),
+        ("convex", "mixed"),
+        ("deforming", "lazy"),
+        ("grids_passing", "greedy"),
+        ("grids_passing", "lazy"),
+        ("ballistic_points", "incremental"),
+    ],
+)
+def test_changes_of_the_engine_make_the_film_of_a_comparison_of_all(family, tiling):
+    steps = 0
+    for seed in range(2):
+        scene = generate(family, seed)
+        driver = Driver(lambda scene=scene: scene)
+        driver.start(tiling)
+        node = driver.kinetic.vertices.nodes()
+        ours, whole = Tracker(driver.kinetic, node), Tracker(driver.kinetic, node)
+        driver.observers.append(ours)
+        while steps < 60 * (seed + 1) and (events := driver.advance(scene.end)) is not None:
+            if events:
+                steps += 1
+                whole.on_changed_edges(None)
+                ours.update(steps)
+                whole.update(steps)
+        assert ours.edges == whole.edges
+        assert sorted(map(repr, ours.tiles)) == sorted(map(repr, whole.tiles))
+    assert steps > 5
