@@ -35,6 +35,7 @@ NAMES = [
     "WORK",
     "require",
     "words",
+    "most_words",
     "Poly",
     "vector_of",
     "dot_of",

@@ -49,16 +49,17 @@ class NoProofError(Exception): pass
 class Rejected(Exception): pass
 class Exhausted(Exception): pass
 class Work:
-    usual = left = 10 ** 9
+    usual = left = 5 * 10 ** 8
     def start(self, work: int | None, files: int) -> None:
-        self.left = self.usual + 1000 * files if work is None else work
+        self.left = self.usual + 2000 * files if work is None else work
     def spend(self, products: int) -> None:
         self.left -= products
         if self.left < 0: raise Exhausted('not decided: the budget of work is used up (see --work)')
 WORK = Work()
 def require(condition: object, why: str) -> None:
     if not condition: raise Rejected(why)
-def words(n: int) -> int: return (n.numerator.bit_length() >> 6) + 1
+def words(n: int) -> int: return (n.numerator.bit_length() + n.denominator.bit_length() >> 6) + 1
+def most_words(f: Iterable[Any]) -> int: return max(map(words, f), default=1)
 class Poly(tuple[Any, ...]):
     def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
         f = list(coefficients)
@@ -68,24 +69,26 @@ class Poly(tuple[Any, ...]):
     def __sub__(self, g: 'Poly') -> 'Poly': return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
     def __mul__(self, g: 'Poly') -> 'Poly':
         if len(self) == 1: return g if self[0] == 1 else Poly([self[0] * b for b in g])
-        if len(self) * len(g) > 8: WORK.spend(len(self) * len(g) * words(self[-1]) * words(g[-1]))
+        if len(self) * len(g) > 8: WORK.spend(len(self) * len(g) * most_words(self) * most_words(g))
         product = [0] * (len(self) + len(g) - 1) if self and g else []
         for i, a in enumerate(self):
             for j, b in enumerate(g): product[i + j] += a * b
         return Poly(product)
     def scaled(self, t: Fraction) -> tuple[int, int]:
-        n, d, power, total = (t.numerator, t.denominator, 1, 0); WORK.spend(len(self) ** 2 * words(n) * words(d))
+        n, d, power, total = (t.numerator, t.denominator, 1, 0)
+        if (n | d) >> 64: WORK.spend(len(self) ** 2 * words(d) * (words(n) + most_words(self)))
         for c in reversed(self):
             total = total * n + c * power; power *= d
-        return (total * d, power)
+        WORK.spend(len(self) * words(total)); return (total * d, power)
     def value(self, t: Fraction) -> Fraction: return Fraction(*self.scaled(t))
     def along(self, a: Fraction, b: Fraction) -> 'Poly':
-        f = Poly()
+        f, n = (Poly(), len(self)); WORK.spend(n * n * (300 + 2 * (most_words(self) + n * most_words((a, b))) ** 2))
         for c in reversed(self): f = f * Poly([a, b - a]) + Poly([c])
         return f
     def derivative(self) -> 'Poly': return Poly([i * c for i, c in enumerate(self)][1:])
     def bound(self, a: Fraction, b: Fraction) -> Fraction:
         f = self.along(a, b); n, found = (len(f) - 1, Fraction(0))
+        WORK.spend(len(f) ** 2 * (300 + 2 * most_words(f) ** 2))
         for j in range(n + 1):
             c = sum((c * comb(j, i) / comb(n, i) for i, c in enumerate(f[:j + 1])), Fraction(0))
             found = max(found, abs(c))
@@ -121,15 +124,16 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
         for j in range(k + 1, len(spans)):
             left, _, low, high, c, d = spans[j]
             if left > right: break
+            WORK.spend(200)
             if low > top or high < bottom: continue
-            WORK.spend(64)
+            WORK.spend(2000)
             if b == c or d == a:
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0: return False
             elif meet(points[a], points[b], points[c], points[d]): return False
     return True
 def surrounds(ring: Sequence[Point], p: Point) -> bool:
-    odd = False
+    odd = False; WORK.spend(300 * len(ring))
     for a, b in pairwise([*ring, *ring[:1]]):
         if (a[1] > p[1]) != (b[1] > p[1]): odd ^= a[0] + (p[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > p[0]
     return odd
@@ -190,11 +194,12 @@ class Motion:
             w, cosine, sine = (one + h * h, one - h * h, h + h)
             a, b = (cosine * c_(c) - sine * c_(s), sine * c_(c) + cosine * c_(s))
             e, f = (w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q); self.form = (a, zero - b, b, a, e, f, w)
+        self.cost = sum((len(f) * (300 + 2 * most_words(f) ** 2) for f in self.form))
     def at(self, t: Fraction) -> tuple[Fraction, ...]:
         *values, w = (f.value(t) for f in self.form); return tuple((v / w for v in values))
     def track(self, x: Poly, y: Poly) -> Track:
-        a, b, c, d, e, f, w = self.form; found = (a * x + b * y + e, c * x + d * y + f, w)
-        m = lcm(*(q.denominator for g in found for q in g))
+        WORK.spend(self.cost * (len(x) + len(y))); a, b, c, d, e, f, w = self.form
+        found = (a * x + b * y + e, c * x + d * y + f, w); m = lcm(*(q.denominator for g in found for q in g))
         whole = [[k.numerator * (m // k.denominator) for k in g] for g in found]
         m = gcd(*(k for g in whole for k in g)); x, y, w = (Poly([k // m for k in g]) for g in whole); return (x, y, w)
 def c_(value: Fraction) -> Poly: return Poly([value])
@@ -252,7 +257,7 @@ class Body:
         (s, p), (e, q) = (self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)])
         x, y = (line(s, e, a, b) for a, b in zip(p[i], q[i], strict=True)); return (x, y)
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Point]:
-        a, b, c, d, e, f = (motion or self.motions[bisect_right(self.ends, t)]).at(t)
+        WORK.spend(1000 * self.size); a, b, c, d, e, f = (motion or self.motions[bisect_right(self.ends, t)]).at(t)
         shape = (self.coordinates(i, t) for i in range(self.size))
         points = ((x.value(t), y.value(t)) for x, y in shape)
         return [(a * x + b * y + e, c * x + d * y + f) for x, y in points]
@@ -357,7 +362,7 @@ def arctan(x: Fraction, bits: int) -> Bounds:
     if 2 * x <= 1: return series(x, bits)
     low, high = series((1 - x) / (1 + x), bits + 1); p, q = pi_bounds(bits + 1); return (p / 4 - high, q / 4 - low)
 def series(x: Fraction, bits: int) -> Bounds:
-    n = bits + 16; power = floor(x * 2 ** n); square = power * power >> n; total, terms = (0, 0)
+    n = bits + 16; WORK.spend(100 * n); power = floor(x * 2 ** n); square = power * power >> n; total, terms = (0, 0)
     while power:
         total += (-1) ** terms * (power // (2 * terms + 1)); power, terms = (power * square >> n, terms + 1)
     return (Fraction(total - 3 * terms - 4, 2 ** n), Fraction(total + 3 * terms + 4, 2 ** n))
@@ -471,7 +476,7 @@ def spread(f: Poly, d: int, a: int, b: int, m: int) -> list[int]:
     c = [*f, *[0] * (d + 1 - len(f))]
     if d < 2:
         return [c[0] * m + c[1] * a, c[0] * m + c[1] * b] if d else c
-    WORK.spend(d * d * (words(max(map(abs, c))) + d * max(words(a), words(b), words(m))))
+    WORK.spend(d * d * most_words((a, b, m)) * (most_words(c) + d * most_words((a, b, m))))
     g, power = [c[d]], 1
     for j in range(1, d + 1):
         power *= m
@@ -611,7 +616,7 @@ class Checker:
         )
         while todo:
             items, time = todo.pop()
-            WORK.spend(len(items) + len(self.named))
+            WORK.spend(20 * (len(items) + len(self.named)))
             if not self.count({self.items[i][0] for i in items}):
                 continue
             self.line, row = next(nodes, (self.last[0], ["none"]))
@@ -661,7 +666,7 @@ class Checker:
             xs = [at[v][0] for v in body.vertices]
             low = bisect_left(firsts, min(xs), key=lambda p: p[0])
             for x, y, j in firsts[low : bisect_right(firsts, max(xs), key=lambda p: p[0])]:
-                WORK.spend(8 * body.size + len(self.named))
+                WORK.spend(20 * len(self.named))
                 if body.closed and self.count({i, j}):
                     inside = self.is_inside(body, (x, y), self.start)
                     require(not inside, f"b{j} has a ring inside b{i} at the start")

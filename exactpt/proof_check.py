@@ -6,18 +6,11 @@
 This file imports the standard library alone, and uses no floats to decide anything. The
 statement, the file format and the complete argument are in docs/proofs.md.
 
-The proof describes a planar map on the vertices of the scene, and its changes at certain times.
-In each open interval between two of these, every angle of a face stays convex, reflex or
-straight: orientations of three vertices do not vanish, and these are polynomials in time. By
-counting angles, the map is drawn without crossings then, and no two bodies touch. At the times
-themselves, a touch can only be among faces with an angle that vanishes just then.
-
-A proof of "no contact" may end before the span of the scene does: it is accepted then by --until
-T, where T is not after its end, or by --partial. --expect compares with `exactpt collide --json`.
+A proof of no contact that ends before the scene is accepted by --until T, T not after its end, or
+by --partial. --expect compares with `exactpt collide --json`.
 
 Without -I, Python runs a file called fractions.py that lies in the current folder or beside this
-one; so this file refuses to run then. (-I does not keep away what the installation of Python
-itself starts, such as sitecustomize.)
+one; so this file refuses to run then.
 
 Exit code: 0 accepted, 1 rejected (with the first line that fails, or what is proved and is not
 what was wanted), 2 no proof of this scene, 4 not decided: the budget of work is used up.
@@ -64,11 +57,11 @@ class Exhausted(Exception):  # noqa: N818 - no verdict
 class Work:
     """The work that is left: products of two words of 64 bits, by estimate."""
 
-    usual = left = 10**9
+    usual = left = 5 * 10**8
 
     def start(self, work: int | None, files: int) -> None:
-        """Set the budget: by default the usual work, and 1,000 for each byte of the files."""
-        self.left = self.usual + 1000 * files if work is None else work
+        """Set the budget: by default the usual work, and 2,000 for each byte of the files."""
+        self.left = self.usual + 2000 * files if work is None else work
 
     def spend(self, products: int) -> None:
         """Count some work."""
@@ -81,20 +74,12 @@ WORK = Work()
 
 
 class Proved(str):
-    """What is proved, in words.
+    """What is proved, in words."""
 
-    Attributes:
-        until: the end of the span of the proof.
-        whole: whether the answer is that of the whole span of the scene.
-        time: the time of the contact, or None.
-        incidences: (vertex, 0, vertex) or (vertex, 1, first vertex of an edge); none at the start.
-        scene: the scene.
-    """
-
-    until: Fraction
-    whole: bool
-    time: "Time | None"
-    incidences: set[Angle]
+    until: Fraction  # the end of the span of the proof
+    whole: bool  # whether the answer is that of the whole span of the scene
+    time: "Time | None"  # of the contact
+    incidences: set[Angle]  # (vertex, 0, vertex) or (vertex, 1, first vertex of an edge)
     scene: "Scene"
 
     def within(self, text: str) -> "Proved":
@@ -116,8 +101,13 @@ PRIME, TEN = 2**61 - 1, Fraction(10)
 
 
 def words(n: int) -> int:
-    """Return the number of 64-bit words of an integer, or of the numerator of a rational."""
-    return (n.numerator.bit_length() >> 6) + 1
+    """Return the number of 64-bit words of a number, its denominator's included."""
+    return ((n.numerator.bit_length() + n.denominator.bit_length()) >> 6) + 1
+
+
+def most_words(f: Iterable[Any]) -> int:
+    """Return the number of words of the longest of some numbers."""
+    return max(map(words, f), default=1)
 
 
 class Poly(tuple[Any, ...]):
@@ -144,7 +134,7 @@ class Poly(tuple[Any, ...]):
         if len(self) == 1:
             return g if self[0] == 1 else Poly([self[0] * b for b in g])
         if len(self) * len(g) > 8:
-            WORK.spend(len(self) * len(g) * words(self[-1]) * words(g[-1]))
+            WORK.spend(len(self) * len(g) * most_words(self) * most_words(g))
         product = [0] * (len(self) + len(g) - 1) if self and g else []
         for i, a in enumerate(self):
             for j, b in enumerate(g):
@@ -154,10 +144,12 @@ class Poly(tuple[Any, ...]):
     def scaled(self, t: Fraction) -> tuple[int, int]:
         """Return d^k times the value at n / d, with k the number of coefficients; and d^k."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
-        WORK.spend(len(self) ** 2 * words(n) * words(d))
+        if (n | d) >> 64:
+            WORK.spend(len(self) ** 2 * words(d) * (words(n) + most_words(self)))
         for c in reversed(self):
             total = total * n + c * power
             power *= d
+        WORK.spend(len(self) * words(total))
         return total * d, power
 
     def value(self, t: Fraction) -> Fraction:
@@ -166,7 +158,8 @@ class Poly(tuple[Any, ...]):
 
     def along(self, a: Fraction, b: Fraction) -> "Poly":
         """Return the polynomial in s whose value is that of this one at the time a + (b - a) s."""
-        f = Poly()
+        f, n = Poly(), len(self)
+        WORK.spend(n * n * (300 + 2 * (most_words(self) + n * most_words((a, b))) ** 2))
         for c in reversed(self):
             f = f * Poly([a, b - a]) + Poly([c])
         return f
@@ -179,6 +172,7 @@ class Poly(tuple[Any, ...]):
         """Return the largest absolute value of the Bernstein coefficients on [a, b]."""
         f = self.along(a, b)
         n, found = len(f) - 1, Fraction(0)
+        WORK.spend(len(f) ** 2 * (300 + 2 * most_words(f) ** 2))
         for j in range(n + 1):
             c = sum((c * comb(j, i) / comb(n, i) for i, c in enumerate(f[: j + 1])), Fraction(0))
             found = max(found, abs(c))
@@ -192,12 +186,13 @@ class Poly(tuple[Any, ...]):
     def primitive(self) -> "Poly":
         """Return the primitive part, with a positive leading coefficient."""
         content = gcd(*self) * (-1 if self[-1] < 0 else 1) if self else 1
+        WORK.spend(len(self) * most_words(self) * words(content))
         return Poly([c // content for c in self])
 
     def divided(self, g: "Poly") -> tuple["Poly", "Poly"]:
         """Return (q, r) with c f = q g + r, a number c that is not 0, and deg r < deg g."""
         rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
-        WORK.spend(len(quotient) * len(self) * words(self[-1] if self else 0) * words(g[-1]))
+        WORK.spend(len(quotient) * len(self) * most_words(self) * most_words(g))
         for i in range(len(self) - len(g), -1, -1):
             top = rest.pop()
             rest, quotient = [g[-1] * c for c in rest], [g[-1] * c for c in quotient]
@@ -242,11 +237,10 @@ class Poly(tuple[Any, ...]):
     def variations(self, low: Fraction, high: Fraction) -> int:
         """Return an upper bound of the number of roots in (low, high), exact if it is 0 or 1.
 
-        Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0. (These
-        coefficients are those of f in the Bernstein basis, times binomials.)
+        Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0.
         """
         d = lcm(low.denominator, high.denominator)
-        WORK.spend(len(self) ** 2 * (words(self[-1] if self else 0) + len(self) * words(d)))
+        WORK.spend(len(self) ** 2 * words(d) * (most_words(self) + len(self) * words(d)))
         start, width, power = int(low * d), int((high - low) * d), 1
         g: list[int] = []  # of s: d^n f(low + (high - low) s)
         for c in reversed(self):
@@ -276,10 +270,7 @@ class Poly(tuple[Any, ...]):
 
 
 class Time:
-    """A number: low = high; or the only root of f between low and high, where f is not 0.
-
-    f has simple roots alone; so its signs at low and high differ.
-    """
+    """A number: low = high; or the only root, a simple one, of f between low and high."""
 
     def __init__(self, low: Fraction, high: Fraction | None = None, f: Poly = Poly()) -> None:  # noqa: B008
         self.low, self.high, self.f = low, low if high is None else high, f
@@ -359,9 +350,15 @@ def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
 
     There must be a number between them that is the start plus a multiple of the unit.
     """
+    near = unit * 2 ** (APART - 64)  # times that are nearer may be one: a root of both
     while b.low - a.high < unit:
         require(b.high > a.low, "times do not increase")
-        if max(a.high - a.low, b.high - b.low) * 2 < unit:
+        width = max(a.high - a.low, b.high - b.low)
+        if width < near and a.low < a.high and b.low < b.high:
+            near, both = Fraction(0), a.f.common_divisor(b.f)
+            signs = [both.sign_at(q) for q in (max(a.low, b.low), min(a.high, b.high))]
+            require(signs[0] * signs[1] >= 0, "times do not increase")
+        if width * 2 < unit:
             q = start + (floor((a.low - start) / unit) + 1) * unit  # the first one after a.low
             q += unit * (a.compare_rational(q) >= 0)
             require(b.compare_rational(q) > 0, "times do not increase, or by too little")
@@ -385,9 +382,7 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     return -1 in after, 0 in after
 
 
-# ---- Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
-
-# What a place is at a time: integers (x, y, w). The same functions are for both.
+# ---- Tracks: a vertex is at (x / w, y / w), polynomials, w > 0; its place is three integers.
 
 Track = tuple[Poly, Poly, Poly]
 Whole = tuple[int, int, int]
@@ -452,9 +447,10 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
             left, _, low, high, c, d = spans[j]
             if left > right:
                 break
+            WORK.spend(200)
             if low > top or high < bottom:
                 continue
-            WORK.spend(64)
+            WORK.spend(2000)
             if b == c or d == a:  # one of them ends where the other begins
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0:
@@ -467,6 +463,7 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
 def surrounds(ring: Sequence[Point], p: Point) -> bool:
     """Return True if a ray from p to the right crosses a polygon an odd number of times."""
     odd = False
+    WORK.spend(300 * len(ring))
     for a, b in pairwise([*ring, *ring[:1]]):
         if (a[1] > p[1]) != (b[1] > p[1]):
             odd ^= a[0] + (p[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > p[0]
@@ -588,6 +585,8 @@ class Motion:
             e, f = w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q
             self.form = a, zero - b, b, a, e, f, w
 
+        self.cost = sum(len(f) * (300 + 2 * most_words(f) ** 2) for f in self.form)
+
     def at(self, t: Fraction) -> tuple[Fraction, ...]:
         """Return the coefficients a, b, c, d, e, f at a time, divided by w."""
         *values, w = (f.value(t) for f in self.form)
@@ -595,6 +594,7 @@ class Motion:
 
     def track(self, x: Poly, y: Poly) -> Track:
         """Return the track of a vertex: polynomials with integer coefficients."""
+        WORK.spend(self.cost * (len(x) + len(y)))
         a, b, c, d, e, f, w = self.form
         found = a * x + b * y + e, c * x + d * y + f, w
         m = lcm(*(q.denominator for g in found for q in g))
@@ -700,6 +700,7 @@ class Body:
 
     def places(self, t: Fraction, motion: Motion | None = None) -> list[Point]:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
+        WORK.spend(1000 * self.size)
         a, b, c, d, e, f = (motion or self.motions[bisect_right(self.ends, t)]).at(t)
         shape = (self.coordinates(i, t) for i in range(self.size))
         points = ((x.value(t), y.value(t)) for x, y in shape)
@@ -733,6 +734,7 @@ class Body:
 
     def keeps_lengths(self, t: Fraction) -> bool:
         """Return True if the body is only translated and rotated just after a time."""
+        WORK.spend(500 * self.size)
         (x, y), *others = (self.coordinates(i, t) for i in range(self.size))
         same = all(f[1:] == x[1:] and g[1:] == y[1:] for f, g in others)
         return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
@@ -910,6 +912,7 @@ def series(x: Fraction, bits: int) -> Bounds:
     out is less than 3 when powers are below 1.
     """
     n = bits + 16
+    WORK.spend(100 * n)
     power = floor(x * 2**n)
     square = (power * power) >> n
     total, terms = 0, 0
@@ -966,11 +969,16 @@ class Scene:
             self.known[1][v] = x / w, y / w
         return self.known[1][v]
 
+    def breaks_in(self, vertices: Iterable[int], low: Fraction, high: Fraction) -> set[Fraction]:
+        """Return the times in (low, high] at which formulas of some vertices change."""
+        every = (self.of(v).breaks for v in vertices)
+        return {q for b in every if b for q in b[bisect_right(b, low) : bisect_right(b, high)]}
+
     def pieces(
         self, vertices: Sequence[int], start: Time, end: Time
     ) -> list[tuple[Time, Time, list[Track]]]:
         """Return the intervals between start, breakpoints and end, with the tracks in each."""
-        found = {q for v in vertices for q in self.of(v).breaks}
+        found = self.breaks_in(vertices, start.low, end.high)
         inside = [q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q)]
         times = [start, *map(Time, sorted(inside)), end]
         # Comparing has seen to it that no breakpoint is after a.low and before a.
@@ -978,7 +986,7 @@ class Scene:
 
     def tracks_at(self, vertices: Iterable[int], time: Time) -> dict[int, Track]:
         """Return tracks of some vertices that hold at a time."""
-        for q in {q for v in vertices for q in self.of(v).breaks}:
+        for q in self.breaks_in(vertices, time.low, time.high):
             time.compare_rational(q)  # so that no breakpoint is inside the interval of the time
         return {v: self.track(v, time.low) for v in vertices}
 
@@ -1090,6 +1098,7 @@ class PlanarMap:
         """Return True if a path joins two vertices; search from both ends in turn."""
         seen, fronts = ({u}, {v}), [{u}, {v}]
         while all(fronts) and seen[0].isdisjoint(seen[1]):
+            WORK.spend(100 * len(fronts[0]) + 100 * len(fronts[1]))
             for i in (0, 1):
                 fronts[i] = {y for x in fronts[i] for y in self.out[x]} - seen[i]
                 seen[i].update(fronts[i])
@@ -1099,6 +1108,7 @@ class PlanarMap:
         """Make the faces around changed half-edges anew; return the new faces."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = touched.union(*old)
+        WORK.spend(100 * len(pool))
         for d in pool:
             self.face_of.pop(d, None)
         pool = {d for d in pool if d in self.after}
@@ -1110,7 +1120,8 @@ class PlanarMap:
             pool.difference_update(face)
             new.add(tuple(face))
             self.face_of.update(dict.fromkeys(face, tuple(face)))
-        self.faces = (self.faces - old) | new
+        self.faces -= old
+        self.faces |= new
         v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
         euler = 2 * self.components
         require(v - e + f == euler, f"{v} vertices, {e} edges, {f} faces: V - E + F is not {euler}")
@@ -1204,10 +1215,10 @@ class Checker:
         """Return what is proved."""
         start, end, last, named = self.scene.start, self.end, self.scene.end, set[int]()
         if time is None:
-            text = (
+            rest = (
                 f"; the span of the scene is [{start}, {last}]: nothing is said of ({end}, {last}]"
             )
-            text = f"no contact in [{start}, {end}]" + (text if end < last else ", the whole span")
+            text = f"no contact in [{start}, {end}]" + (rest if end < last else ", the whole span")
         elif not found:
             text, named = f"contact at the start t = {start}: {what}", self.named
         else:
@@ -1232,7 +1243,7 @@ class Checker:
         low, high = Fraction(words[0]), Fraction(words[1])
         if words[2:3] == ["@"]:
             v = self.vertices(words[3:])
-            breaks = {q for u in v for q in self.scene.of(u).breaks if low < q < high}
+            breaks = self.scene.breaks_in(v, low, high) - {high}
             require(not breaks, f"a breakpoint is between {low} and {high}")
             p = [self.scene.track(u, low) for u in v]
             f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
@@ -1342,13 +1353,7 @@ class Checker:
         self.check_insides({v for _, v, _ in come if v in self.ahead})
         self.begin_lives([*come, *again])
 
-    # Steps 3, 4, 5: the interval after now. Let a face f turn k(f) times, and the angles of a
-    # vertex v add up to m(v) full turns. There are two angles an edge: the sum of k is E minus
-    # the sum of m. With V - E + F = 2, the sum of m - 1 is the sum of 1 - k, over all faces but
-    # the outer one, plus -k(outer) - 1. Here m = 1, and no term on the right is negative: with
-    # three convex angles, 2 pi k < 3 pi. So each face turns once. Then it is simple: its chains,
-    # seen from a convex angle, lie in two cones that share the apex alone, for the convex angles
-    # and the turns of the chains add up to pi. And the faces lie side by side.
+    # Steps 3, 4, 5: the interval after now.
 
     def look_at(self, sample: Fraction) -> None:
         """Check new angles and faces at a rational time inside the interval that begins now."""
@@ -1402,6 +1407,7 @@ class Checker:
 
     def direction(self, u: int, v: int, t: Fraction) -> Point:
         """Return the direction from u to v at a rational time."""
+        WORK.spend(4000)
         (a, b), (c, d) = self.scene.at(u, t), self.scene.at(v, t)
         return c - a, d - b
 
@@ -1428,9 +1434,7 @@ class Checker:
             require(ends and not inside, f"{shown} vanishes during its life")
         return vanishes
 
-    # Step 6: a contact at a time between intervals. Just before, a short segment from a vertex to
-    # what it comes to touch crosses diagonals, and shrinks to a point. So each face that it
-    # crosses is not simple then, and has an angle that vanishes. The segment stays in a cluster.
+    # Step 6: a contact at a time between intervals.
 
     def check_clusters(self, faces: set[Face], time: Time) -> None:
         """Check that there is no contact in the clusters of these faces."""
@@ -1449,12 +1453,7 @@ class Checker:
                 raise Rejected(f"{what} at t = {time}")
 
     def incidences(self, darts: set[Dart], time: Time) -> set[Angle]:
-        """Return all incidences at a time among the vertices and body edges of half-edges.
-
-        Vertices are sorted by abscissas at that time, where these are equal by ordinates. Then
-        those that coincide are neighbours; and on an edge are those that come between its ends
-        and are on its line.
-        """
+        """Return all incidences at a time among the vertices and body edges of half-edges."""
         tracks = self.scene.tracks_at({v for v, _ in darts}, time)
 
         def order(u: int, v: int) -> int:

@@ -45,7 +45,7 @@ void add_hull(Hull& hull, const Path& path, const Rational& s, const Rational& e
   const Integer q = lcm(s.get_den(), e.get_den());
   const Integer a = s.get_num() * (q / s.get_den()), b = e.get_num() * (q / e.get_den());
   const double long_q = words(q) + words(a) + words(b), degree = static_cast<double>(n);
-  spend(8 + degree * degree * (words(path.w.back()) + degree * long_q));
+  spend(8 + degree * degree * long_q * (words(path.w.back()) + degree * long_q));
   const Poly<Integer> x = between<Integer>(path.x, a, b, q, n), y = between<Integer>(path.y, a, b, q, n);
   const Poly<Integer> w = between<Integer>(path.w, a, b, q, n);
   // t w, of the same degree n: w of degree n - 1 times (a + b s).
@@ -219,7 +219,7 @@ class Checker {
     while (!todo.empty()) {
       const Node node = std::move(todo.back());
       todo.pop_back();
-      spend(static_cast<double>(node.items.size() + pairs_.size()));
+      spend(100 * static_cast<double>(node.items.size() + pairs_.size()));
       std::set<int> bodies;
       for (const int i : node.items) bodies.insert(item(i).body);
       if (!count(bodies)) continue;
@@ -336,7 +336,7 @@ class Checker {
       auto near = std::lower_bound(firsts.begin(), firsts.end(), left,
                                    [](const First& f, const Rational& x) { return f.place.first < x; });
       for (; near != firsts.end() && near->place.first <= right; ++near) {
-        spend(8 * static_cast<double>(body.size) + static_cast<double>(pairs_.size()));
+        spend(100 * static_cast<double>(body.size + pairs_.size()));
         if (!count({static_cast<int>(i), near->body})) continue;
         bool odd = false;
         for (const Polygon& ring : rings) odd ^= is_crossed_oddly(ring, near->place);

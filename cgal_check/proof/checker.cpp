@@ -160,7 +160,9 @@ void Checker::renew_faces(const std::vector<int>& ended, const std::vector<int>&
   const int first = static_cast<int>(is_outer_.size());
   for (const int h : begun) {
     if (face(h) >= first) continue;
-    for (const int g : map_->face(h)) face(g) = static_cast<int>(is_outer_.size());
+    const std::vector<int> cycle = map_->face(h);
+    spend(20 * static_cast<double>(cycle.size()));
+    for (const int g : cycle) face(g) = static_cast<int>(is_outer_.size());
     is_outer_.push_back(false);
     ++faces_;
   }

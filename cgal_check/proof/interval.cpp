@@ -55,6 +55,7 @@ Kind Checker::kind_of(int h, const Time& sample) {
 void Checker::count_corners(int h, const Time& sample) {
   std::size_t convex = 0, wide = 0, turns = 0;
   const std::vector<int> cycle = map_->face(h);
+  spend(100 * static_cast<double>(cycle.size()));
   for (const int g : cycle) {
     convex += angle(g).kind == Kind::convex;
     wide += angle(g).kind == Kind::reflex || angle(g).kind == Kind::full;
@@ -85,6 +86,7 @@ void Checker::check_star(int v, const Time& sample) {
   std::size_t turns = 0;
   int h = map_->any(v);
   do {
+    spend(200);
     const int g = map_->counter_clockwise(h);
     const bool from = is_upward(h, sample), to = is_upward(g, sample);
     const auto is_wide = [&] {

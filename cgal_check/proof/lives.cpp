@@ -134,9 +134,13 @@ bool keeps_in_piece(const Path& p, const Path& q, const Path& r, Kind kind, cons
 std::vector<Rational> breaks(const Scene& scene, int u, int v, int w, const Time& since,
                              const Time& until) {
   std::vector<Rational> found;
-  for (const int vertex : {u, v, w})
-    for (const Rational& t : scene.body(vertex).breaks)
-      if (since.compare(t) < 0 && until.compare(t) > 0) found.push_back(t);
+  for (const int vertex : {u, v, w}) {
+    const std::vector<Rational>& all = scene.body(vertex).breaks;
+    for (auto t = std::upper_bound(all.begin(), all.end(), since.low()); t != all.end(); ++t) {
+      if (until.compare(*t) <= 0) break;
+      if (since.compare(*t) < 0) found.push_back(*t);
+    }
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

@@ -93,6 +93,7 @@ bool Map::are_joined(int u, int v) const {
   std::unordered_set<int> seen[2]{{u}, {v}};
   for (int side = 0;; side = 1 - side) {
     if (open[side].empty()) return false;
+    spend(500);
     const int here = open[side].front();
     open[side].pop_front();
     if (seen[1 - side].count(here) > 0) return true;

@@ -1,5 +1,7 @@
 #include "polynomial.hpp"
 
+#include <algorithm>
+
 #include "faults.hpp"
 
 namespace proof {
@@ -22,11 +24,19 @@ Poly<Integer> integral(const Poly<Rational>& f) {
   return result;
 }
 
+std::vector<Integer>::const_iterator longest(const Poly<Integer>& f) {
+  return std::max_element(f.begin(), f.end(), [](const Integer& a, const Integer& b) {
+    return mpz_size(a.get_mpz_t()) < mpz_size(b.get_mpz_t());
+  });
+}
+
 int sign_at(const Poly<Integer>& f, const Rational& t) {
   const Integer& p = t.get_num();
   const Integer& q = t.get_den();
   Integer sum = 0, power = 1;
-  spend(static_cast<double>(f.size() * f.size() * mpz_size(p.get_mpz_t()) * mpz_size(q.get_mpz_t())));
+  const auto size = [](const Integer& n) { return static_cast<double>(mpz_size(n.get_mpz_t())); };
+  const double n = static_cast<double>(f.size());
+  spend(n * n * size(q) * (size(p) + size(q) + (f.empty() ? 0 : size(*longest(f)))));
   for (std::size_t i = f.size(); i-- > 0;) {
     sum *= p;
     sum += f[i] * power;
@@ -55,7 +65,8 @@ Poly<Integer> between(const Poly<Integer>& f, const Rational& low, const Rationa
   const Integer a = low.get_num() * (q / low.get_den());
   const Integer b = high.get_num() * (q / high.get_den());
   const double n = static_cast<double>(f.size()), long_q = static_cast<double>(mpz_size(q.get_mpz_t()));
-  spend(f.empty() ? 0 : n * n * (static_cast<double>(mpz_size(f.back().get_mpz_t())) + n * long_q));
+  const double long_f = f.empty() ? 0 : static_cast<double>(mpz_size(longest(f)->get_mpz_t()));
+  spend(n * n * long_q * (long_f + n * (long_q + long_f / 3)));
   return between(f, a, b, q, f.empty() ? 0 : f.size() - 1);
 }
 

@@ -83,6 +83,9 @@ Poly<Integer> primitive(Poly<Integer> f);
 // An integer polynomial with the same zeros and signs.
 Poly<Integer> integral(const Poly<Rational>& f);
 
+// A coefficient of the most words.
+std::vector<Integer>::const_iterator longest(const Poly<Integer>& f);
+
 int sign_at(const Poly<Integer>& f, const Rational& t);
 
 // Divided by (q t - p) as often as that is possible, where t = p/q.

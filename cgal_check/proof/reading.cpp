@@ -458,6 +458,7 @@ Body read_body(const Json& json, int first, const Rational& start) {
   body.breaks.erase(std::unique(body.breaks.begin(), body.breaks.end()), body.breaks.end());
   for (std::size_t i = 0; i <= body.breaks.size(); ++i) {
     const Rational* end = i < body.breaks.size() ? &body.breaks[i] : nullptr;
+    spend(4000 * static_cast<double>(body.size));
     std::vector<Path> paths;
     const Motion& here = motion.just_before(end);
     for (const Position& p : shape.just_before(end)) paths.push_back(here.path(p));

@@ -40,10 +40,14 @@ Polynomial1 polynomial(const Poly<Integer>& f) {
   return Polynomial1(coefficients.begin(), coefficients.end());
 }
 
+Poly<Integer> integers(const Polynomial1& f) {
+  Poly<Integer> result;
+  for (int i = 0; i <= f.degree(); ++i) result.emplace_back(mpz_of(f[i], 0));
+  return primitive(result);
+}
+
 double words(const Poly<Integer>& f) {
-  std::size_t most = 1;
-  for (const Integer& c : f) most = std::max(most, mpz_size(c.get_mpz_t()));
-  return static_cast<double>(most);
+  return f.empty() ? 1 : static_cast<double>(mpz_size(longest(f)->get_mpz_t()));
 }
 
 // What CGAL does with one polynomial, or with two of them: greatest common divisors, and
@@ -73,10 +77,13 @@ int Root::sign_of(const Poly<Integer>& g) const {
 
 Poly<Integer> square_free(const Poly<Integer>& f) {
   spend_on(f, {});
-  const Polynomial1 g = kernel1.make_square_free_1_object()(polynomial(f));
-  Poly<Integer> result;
-  for (int i = 0; i <= g.degree(); ++i) result.emplace_back(mpz_of(g[i], 0));
-  return primitive(result);
+  return integers(kernel1.make_square_free_1_object()(polynomial(f)));
+}
+
+Poly<Integer> common_divisor(const Poly<Integer>& f, const Poly<Integer>& g) {
+  spend_on(f, g);
+  using Gcd = CGAL::Polynomial_traits_d<Polynomial1>::Gcd_up_to_constant_factor;
+  return integers(Gcd()(polynomial(f), polynomial(g)));
 }
 
 std::optional<Roots> isolated(const Poly<Integer>& f, const Rational& low, const Rational& high,

@@ -27,6 +27,8 @@ class Root {
 
 Poly<Integer> square_free(const Poly<Integer>& f);
 
+Poly<Integer> common_divisor(const Poly<Integer>& f, const Poly<Integer>& g);
+
 using Roots = std::vector<std::pair<Rational, Rational>>;
 
 // The roots of a square-free f in [low, high], by intervals with clear ends in which Descartes'

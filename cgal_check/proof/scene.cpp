@@ -105,12 +105,30 @@ Place place(const Path& path, const Rational& t) {
   return {at(path.x) / w, at(path.y) / w};
 }
 
+namespace {
+
+// Counts the products of an orientation, or of a dot product.
+void spend_on(const Path& a, const Path& b, const Path& c) {
+  double terms = 1, words = 1;
+  for (const Path* path : {&a, &b, &c})
+    for (const Poly<Integer>* f : {&path->x, &path->y, &path->w}) {
+      if (f->empty()) continue;
+      terms = std::max(terms, static_cast<double>(f->size()));
+      words = std::max(words, static_cast<double>(mpz_size(longest(*f)->get_mpz_t())));
+    }
+  spend(24 * terms * terms * (8 + words * words));
+}
+
+}  // namespace
+
 Poly<Integer> orientation(const Path& a, const Path& b, const Path& c) {
+  spend_on(a, b, c);
   return a.w * (b.x * c.y - b.y * c.x) - b.w * (a.x * c.y - a.y * c.x) +
          c.w * (a.x * b.y - a.y * b.x);
 }
 
 Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b) {
+  spend_on(a, v, b);
   return (a.x * v.w - v.x * a.w) * (b.x * v.w - v.x * b.w) +
          (a.y * v.w - v.y * a.w) * (b.y * v.w - v.y * b.w);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "faults.hpp"
+
 namespace proof {
 
 namespace {
@@ -28,6 +30,7 @@ Rational over_power_of_two(const Integer& n, long bits) {
 // too small by less than 2, a term by less than 3, and what is left out is less than 3.
 Bounds series(const Rational& x, long bits) {
   const long n = bits + 16;
+  spend(100 * static_cast<double>(n));
   Rational scaled(x);
   mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), static_cast<mp_bitcnt_t>(n));
   Integer power = floor(scaled), total = 0;
@@ -70,8 +73,22 @@ Bounds angle(Rational c, Rational s, long bits) {
   return {2 * b.first + quarters * whole.first / 2, 2 * b.second + quarters * whole.second / 2};
 }
 
+double words(const Rational& q) {
+  const auto bits = [](mpz_srcptr n) { return static_cast<double>(mpz_sizeinbase(n, 2)); };
+  return (bits(q.get_num_mpz_t()) + bits(q.get_den_mpz_t())) / 64;
+}
+
+// Counts operations on all pairs of coefficients that get longer by some words with the degree.
+void spend_on(const Rationals& f, double longer) {
+  const double n = static_cast<double>(f.size());
+  double most = n * longer;
+  for (const Rational& c : f) most = std::max(most, words(c) + n * longer);
+  spend(n * n * (500 + most * most));
+}
+
 // The polynomial of s that is f at the time a + (b - a) s.
 Rationals along(const Rationals& f, const Rational& a, const Rational& b) {
+  spend_on(f, std::max(words(a), words(b)));
   Rationals line{a, b - a}, g;
   trim(line);
   for (std::size_t i = f.size(); i-- > 0;) {
@@ -91,6 +108,7 @@ Rationals derivative(const Rationals& f) {
 // A bound of |f| between two times: the largest of its Bernstein coefficients.
 Rational bound(const Rationals& f, const Rational& a, const Rational& b) {
   const Rationals g = along(f, a, b);
+  spend_on(g, 0);
   Rational most = 0;
   for (std::size_t j = 0; j < g.size(); ++j) {
     Rational sum = 0;

@@ -1,5 +1,6 @@
 #include "time.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -132,10 +133,24 @@ Rational Time::first_after(const Rational& start, const Rational& unit) const {
   return compare(q) >= 0 ? Rational(q + unit) : q;
 }
 
+// Whether two times, which are roots, are one: then both polynomials vanish there.
+bool Time::is_same(const Time& other) const {
+  if (is_rational() || other.is_rational()) return false;
+  const Rational low = std::max(low_, other.low_), high = std::min(high_, other.high_);
+  const Poly<Integer> both = common_divisor(f_, other.f_);
+  return low < high && sign_at(both, low) * sign_at(both, high) < 0;
+}
+
 std::optional<Rational> Time::sample(Time& from, Time& to, const Rational& start,
                                      const Rational& unit) {
+  Rational near = unit;  // times that are nearer may be one
+  mpq_mul_2exp(near.get_mpq_t(), near.get_mpq_t(), 1984);
   while (to.low_ - from.high_ < unit) {
     if (to.high_ <= from.low_) return std::nullopt;
+    if (from.high_ - from.low_ < near && to.high_ - to.low_ < near) {
+      near = 0;
+      if (from.is_same(to)) return std::nullopt;
+    }
     if ((from.high_ - from.low_) * 2 < unit && (to.high_ - to.low_) * 2 < unit) {
       const Rational q = from.first_after(start, unit);
       return to.compare(q) > 0 ? std::optional(q) : std::nullopt;

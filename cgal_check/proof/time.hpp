@@ -47,6 +47,7 @@ class Time {
   Time(Poly<Integer> f, const Rational& low, const Rational& high);
   void sharpen();
   void halve();
+  bool is_same(const Time& other) const;
   bool narrow(const Poly<Integer>& f, const Integer& left, const Integer& right, int bits);
   void set_interval();
   Rational first_after(const Rational& start, const Rational& unit) const;

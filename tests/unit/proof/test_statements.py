@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from click.testing import CliRunner
 
-from exactpt import Body, Scene, first_contact, proof_check, prove
+from exactpt import Body, Scene, check_apart, first_contact, proof_check, prove
 from exactpt.cli import cli
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 
@@ -114,3 +114,47 @@ def test_bug_isolating_roots_is_counted_as_work(program, tmp_path):
     call = [str(scene), str(proof), "--work", "3000000"]
     done = subprocess.run([program, "proof", *call], capture_output=True, check=False)
     assert (proof_check.main(call), done.returncode) == (4, 4)
+
+
+def run_both(program, folder, scene, lines, *options):
+    """The exit codes of both checkers on a proof, or a certificate, of a scene."""
+    scene.save(folder / "s.json")
+    digest = hashlib.sha256((folder / "s.json").read_bytes()).hexdigest()
+    head = [f"exactpt-{lines[0]} 1", f"scene sha256 {digest}"]
+    (folder / "p").write_text("\n".join([*head, *lines[1:]]) + "\n")
+    call = [str(folder / "s.json"), str(folder / "p"), *options]
+    checker = check_apart if lines[0] == "apart" else proof_check
+    done = subprocess.run([program, "proof", *call], capture_output=True, check=False)
+    return checker.main(call), done.returncode
+
+
+def test_bug_a_root_that_is_there_twice_takes_little_work(program, tmp_path):
+    """Both times were halved 2,048 times; now a common divisor tells that they are one."""
+    scene = Scene([Body("a", [(0, 0)]), Body("b", [(1, 0)])], (0, 10))
+    event = f"event 1 2 -2 {'0 ' * 95}1"
+    lines = ["proof", "span 0 10", "outer 0 1", event, event, "none"]
+    assert run_both(program, tmp_path, scene, lines, "--work", "30000000") == (1, 1)
+
+
+def test_bug_long_times_and_high_degrees_are_counted(program, tmp_path):
+    """C++ took a minute: numbers of 9,000 digits counted as if they were one word each."""
+    body = Body("a", [([0, *[1] * 64], [0, *[3] * 64])])
+    scene = Scene([body, Body("b", [(1, 0)]), Body("c", [(0, 1)])], (0, 1))
+    lines = ["apart", "span 0 1", f"t 1{'0' * 8999}7/1{'0' * 9000}9", "c 1 0 5", "c 1 0 5", "none"]
+    assert run_both(program, tmp_path, scene, lines) == (4, 4)
+
+
+def test_bug_pieces_of_many_vertices_are_counted(program, tmp_path):
+    """Each piece of a motion has a track of each vertex."""
+    polygon = [[k, k * k] for k in range(1500)]
+    pieces = [*({"until": k, "motion": {}} for k in range(1500)), {"motion": {}}]
+    body = {"name": "a", "vertices": polygon, "motion": {"pieces": pieces}}
+    scene = tmp_path / "s.json"
+    scene.write_text(json.dumps({"exactpt": 1, "time": [0, 1], "bodies": [body]}))
+    digest = hashlib.sha256(scene.read_bytes()).hexdigest()
+    lines = ["exactpt-proof 1", f"scene sha256 {digest}", "span 0 1", "outer 0", "none", ""]
+    (tmp_path / "p").write_text("\n".join(lines))
+    done = subprocess.run(
+        [program, "proof", scene, tmp_path / "p"], capture_output=True, check=False
+    )
+    assert done.returncode == 4
