@@ -202,10 +202,7 @@ class Poly(tuple[Any, ...]):
         return Poly(quotient), Poly(rest)
 
     def is_prime_to(self, g: "Poly") -> bool:
-        """Return True if both are coprime modulo a prime, not a divisor of our leading coefficient.
-
-        Then they are coprime: modulo the prime, a common divisor keeps its degree.
-        """
+        """Return True if both are coprime modulo a prime that keeps the degree of a divisor."""
         a, b = [c % PRIME for c in self], Poly(c % PRIME for c in g)
         if not a or not a[-1]:
             return False
@@ -612,13 +609,8 @@ def c_(value: Fraction) -> Poly:
 class Body:
     """A body: the tracks of its vertices, in each piece of its motion.
 
-    Attributes:
-        breaks: the times at which formulas change; piece k ends at breaks[k], the last never.
-        vertices: the numbers of its vertices in the scene, from ``first`` on.
-        closed: whether it is a polygon with its inside.
-        rings: the numbers of the vertices of each ring, and whether it bounds a hole.
-        parts: of each part, the numbers of the vertices of its rings, the outline first.
-        radius: points within this distance of the rest belong to the body, too.
+    ``breaks`` are the times at which formulas change: piece k ends at breaks[k]. ``rings`` are the
+    numbers of vertices of each, with whether it bounds a hole; in ``parts`` outlines are first.
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
@@ -770,11 +762,9 @@ def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     return path
 
 
-# ---- A spin: pieces that turn by the angle omega t, but for an error. Let a piece turn by the
-# angle p + 2 arctan h(t), |h| <= 1. At nine times in it, the difference from omega t (and full
-# turns, the same number of them) is in an interval of rationals. Between these times it changes
-# by at most the largest slope times half of their distance; and the slope, (2 h' - omega (1 +
-# h^2)) / (1 + h^2), is at most the largest Bernstein coefficient of its numerator.
+# ---- A spin: pieces that turn by the angle omega t, but for an error. Of the angle of a piece, p +
+# 2 arctan h(t), |h| <= 1, the difference from omega t is bounded at nine times; between these it
+# changes by at most the largest slope, (2 h' - omega (1 + h^2)) / (1 + h^2), times half a step.
 
 SAMPLES, MOST_ANGLE_BITS = 8, 512
 Bounds = tuple[Fraction, Fraction]
@@ -1012,10 +1002,9 @@ class Scene:
 
 
 class PlanarMap:
-    """Half-edges with their order around faces, and so around vertices. No coordinates.
+    """Half-edges: ``after`` is the next one around a face, ``out`` has the neighbours of vertices.
 
-    ``after`` is the next one of each half-edge around its face; ``out`` has the vertices to which
-    each vertex has an edge; ``component`` is the number, from 1 on, of the component of each.
+    ``component`` is the number, from 1 on, of that of each vertex.
     """
 
     def __init__(self, vertices: int) -> None:
@@ -1135,10 +1124,7 @@ CONVEX, REFLEX, FLAT, FULL = "convex", "reflex", "flat", "full"
 
 @dataclass
 class Life:
-    """The life of the angle of a half-edge v -> w, with u -> v before it.
-
-    It has begun by a line; its kind is known from the sample on.
-    """
+    """The life of an angle, of v -> w after u -> v; its kind is known from the sample on."""
 
     u: int
     since: Time
