@@ -68,7 +68,8 @@ def run(
             question is not that of the batch that was interrupted.
     """
     question = question or Question()
-    source, target = _source(Path(scenes), question.max_bytes), Path(answers)
+    given, target = Path(scenes), Path(answers)
+    source = Rows(given) if given.suffix == PARQUET else Lines(given, question.max_bytes)
     if target.exists():
         raise InputError(f"{target}: it exists: remove it, or choose another name")
     most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
@@ -100,10 +101,6 @@ def run(
         sum(record.failures for record in records),
         next((record.first for record in records if record.first), ""),
     )
-
-
-def _source(path: Path, longest: int) -> Source:
-    return Rows(path) if path.suffix == PARQUET else Lines(path, longest)
 
 
 def _as_rows(

@@ -95,21 +95,10 @@ class Planner:
                 planned = scene.going_on((*scene.bodies, body), scene._start)
                 few = ScenePieces(all_rows, scene._start, scene._end, near)
                 return LinearSearch(planned, few).run_to_contact()
-        return self._first_of_any(body)
-
-    def _first_of_any(self, body: Body) -> Contact | None:
-        """Return the first contact of a body with obstacles or with itself, for any motions."""
-        if self._is_rounded(body) or not is_rigid(body):
-            return self._first_during(body, [self._whole_span()])
+        if scene.is_rounded or body._radius or not is_rigid(body):  # boxes are those of cores
+            whole = Stretch(scene._start, scene._end, list(range(len(scene.bodies))))
+            return self._first_during(body, [whole])
         return self._first_during(body, self._obstacles.stretches(body))
-
-    def _is_rounded(self, body: Body) -> bool:
-        """Return True if the body or an obstacle has a radius (boxes are those of cores)."""
-        return self._scene.is_rounded or bool(body._radius)
-
-    def _whole_span(self) -> Stretch:
-        scene = self._scene
-        return Stretch(scene._start, scene._end, list(range(len(scene.bodies))))
 
     def _first_during(self, body: Body, stretches: Iterable[Stretch]) -> Contact | None:
         """Return the first contact of a body with obstacles, searched while these are near."""

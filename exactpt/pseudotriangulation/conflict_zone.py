@@ -96,7 +96,7 @@ class _Search:
             self._body_at(g)
             for h in [*crossed, first[0]]
             for g in (h, twin(h))
-            if self._swallows(g)
+            if self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[g]))
         )
         if touched:
             name = self.vertices.bodies[min(touched)].body.name
@@ -165,7 +165,3 @@ class _Search:
             if max(a[axis], b[axis]) < self.low[axis] or min(a[axis], b[axis]) > self.high[axis]:
                 return False
         return any(segments_meet(a, b, c, d) for c, d in self.edges)
-
-    def _swallows(self, h: HalfEdge) -> bool:
-        """Return True if the body is a polygon that contains the origin of a half-edge."""
-        return self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[h]))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mypy_extensions import i64
-
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, fraction
@@ -68,13 +66,10 @@ def codes_of(plane: Subdivision, spot: Spot) -> tuple[int, int, int]:
         return kind, place.tile, -1
     if place.body is None:
         return kind, -1, -1
-    body = -2 - spot.handle if spot.on is On.FACE else plane.body[_node_of(plane, spot)]
+    node = plane.map.origin[spot.handle] if spot.on is On.EDGE else spot.handle
+    body = -2 - spot.handle if spot.on is On.FACE else plane.body[node]
     feature = place.edge if place.vertex is None else place.vertex
     return kind, body, -1 if feature is None else feature
-
-
-def _node_of(plane: Subdivision, spot: Spot) -> i64:
-    return plane.map.origin[spot.handle] if spot.on is On.EDGE else spot.handle
 
 
 def cast(

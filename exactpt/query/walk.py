@@ -185,15 +185,11 @@ def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, boo
     for i, h in enumerate(star):
         # The direction is left of h and right of g, or the sector is wider than pi.
         g, after = star[(i + 1) % len(star)], turns[(i + 1) % len(star)]
-        wide = len(star) == 1 or not _is_below_pi(plane, h, g)
+        wide = len(star) == 1 or cross(plane.direction(h), plane.direction(g)) <= 0
         inside = (turns[i] > 0 or after < 0) if wide else (turns[i] > 0 and after < 0)
         if inside or len(star) == 1:
             return h, False
     return star[0], False
-
-
-def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
-    return cross(plane.direction(h), plane.direction(g)) > 0
 
 
 def _through_face(
