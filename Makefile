@@ -19,7 +19,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal test-sanitized clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -131,6 +131,10 @@ test-sanitized: $(VENV)/developing ## cgal_check with AddressSanitizer and UBSan
 	cmake --build cgal_check/build/sanitized --parallel $(JOBS)
 	EXACTPT_CGAL_CHECK='$(CURDIR)/cgal_check/build/sanitized/cgal_check' $(BIN)/python -m pytest -m cgal tests/unit/proof/test_conformance.py
 	EXACTPT_CGAL_CHECK='$(CURDIR)/cgal_check/build/sanitized/cgal_check' $(BIN)/python -m fuzz proof-both --cases 10000
+
+coq: ## check the theorem on certificates by Coq; print its axioms
+	@.ci/apt-install coq libcoq-mathcomp-algebra-tactics
+	mkdir -p build/coq && cp proofs/apart.v build/coq && cd build/coq && coqc -q -w none apart.v
 
 $(BIN)/python:
 	@.ci/apt-install --if-no-venv python3-venv
