@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final, TypeAlias, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
 from exactpt.render.data import touched_edges
 from exactpt.render.labels import Named, labels
-from exactpt.render.palette import ARROW, TINTS, body_colour
-from exactpt.render.window import Window, window_of
+from exactpt.render.palette import TINTS, body_colour
+from exactpt.render.window import ARROW, Pixel, Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
-
-Pixel: TypeAlias = tuple[float, float]
 
 NAMED: Final = 40
 """Maximum number of bodies that are labelled with their names."""

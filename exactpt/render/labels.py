@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple, TypeAlias
 
+from exactpt.render.window import Pixel
 from exactpt.render.words import short
 
-Pixel: TypeAlias = tuple[float, float]
 _Box: TypeAlias = tuple[float, float, float, float]
 
 _LETTER: Final = 7.0

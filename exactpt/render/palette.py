@@ -5,8 +5,6 @@ from __future__ import annotations
 import colorsys
 from typing import Final
 
-ARROW: Final = 46.0
-"""Length in pixels of the normal of a contact, from its point."""
 TINTS: Final = 6
 """Number of tints for tiles."""
 

@@ -6,22 +6,20 @@ four. Coordinates are those of `exactpt.render.svg`, and colours those of its st
 
 from __future__ import annotations
 
-import math
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
 from PIL import Image, ImageChops, ImageColor, ImageDraw, ImageFont
 
-from exactpt.render.palette import ARROW, DARK, LIGHT
+from exactpt.render.palette import DARK, LIGHT
+from exactpt.render.window import HEADER, Pixel, arrow
 from exactpt.render.words import clean
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from exactpt.render.frame import Frame, Mark, Pixel, Shape
+    from exactpt.render.frame import Frame, Mark, Shape
 
-HEADER: Final = 60
-"""Height of the captions above the window."""
 _ZOOM: Final = 2
 _FONTS: Final = {
     "bold": ("DejaVuSans-Bold.ttf", "Arial_Bold.ttf", "arialbd.ttf"),
@@ -129,20 +127,16 @@ class _Pen:
 
     def mark(self, mark: Mark) -> None:
         """Draw the feature that is touched, a ring around the point, and the normal."""
-        red, (x, y) = self.colours["contact"], mark.pixel
+        red = self.colours["contact"]
         if mark.edge is not None:
             self.line(mark.edge, self.mixed(red, 0.55), 4.0)
         (middle,) = _points([mark.pixel])
         self.draw.circle(middle, _ZOOM * 12.2, outline=red, width=round(_ZOOM * 2.4))
         self.draw.circle(middle, _ZOOM * 3.2, fill=red)
         if mark.normal is not None:
-            length = math.hypot(*mark.normal)
-            dx, dy = (c / length for c in mark.normal)
-            tip = (x + ARROW * dx, y + ARROW * dy)
-            self.line(((x + 11 * dx, y + 11 * dy), tip), red, 2.4)
-            for side in (1, -1):
-                wing = (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx)
-                self.line((wing, tip), red, 2.4)
+            start, tip, *barbs = arrow(mark.pixel, mark.normal)
+            for end in (start, *barbs):
+                self.line((end, tip), red, 2.4)
 
 
 def _points(pixels: Iterable[Pixel]) -> list[Pixel]:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import escape
 
-from exactpt.render.palette import ARROW, DARK, LIGHT, TINTS
+from exactpt.render.palette import DARK, LIGHT, TINTS
+from exactpt.render.window import HEADER, Pixel, arrow
 from exactpt.render.words import clean, short
 
 if TYPE_CHECKING:
-    from exactpt.render.frame import Frame, Line, Mark, Pixel, Shape, Tile
+    from exactpt.render.frame import Frame, Line, Mark, Shape, Tile
 
-_HEADER: Final = 60
 _COLUMN: Final = 190
 """Width of a legend."""
 _ROW: Final = 18
@@ -27,7 +26,7 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
     at (0, 60), below the caption.
     """
     column = _COLUMN if frame.legend else 0
-    width, height = frame.window.width + column, frame.window.height + _HEADER
+    width, height = frame.window.width + column, frame.window.height + HEADER
     size = f'width="{width}" height="{height}"'
     box = f'viewBox="0 0 {width} {height}"'
     parts = [
@@ -38,7 +37,7 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
         f'<text class="caption" x="20" y="27">{_text(frame.caption)}</text>',
         f'<text class="news" x="20" y="48">{_text(frame.news)}</text>',
         f'<text class="note" x="20" y="{height - 16}">{_text(frame.note)}</text>',
-        f'<g transform="translate(0 {_HEADER})">',
+        f'<g transform="translate(0 {HEADER})">',
         *(_group("ghosts bodies", map(_shape, frame.ghosts)) if frame.ghosts else ()),
         *(_group("paths", map(_path, frame.paths)) if frame.paths else ()),
         *_group("tiles", map(_tile, frame.tiles)),
@@ -177,23 +176,8 @@ def _mark(mark: Mark) -> Iterator[str]:
     yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="11"/>'
     yield f'<circle class="dot" cx="{_number(x)}" cy="{_number(y)}" r="3.2"/>'
     if mark.normal is not None:
-        yield _arrow(mark.pixel, mark.normal)
-
-
-def _arrow(tail: Pixel, direction: Pixel) -> str:
-    """Return a line from just outside the ring, with an arrowhead at its end."""
-    (x, y), (dx, dy) = tail, direction
-    length = math.hypot(dx, dy)
-    dx, dy = dx / length, dy / length
-    tip = (x + ARROW * dx, y + ARROW * dy)
-    left, right = (
-        (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx) for side in (1, -1)
-    )
-    start = (x + 11 * dx, y + 11 * dy)
-    return (
-        f'<path class="normal" d="M{_pair(start)}L{_pair(tip)}M{_pair(left)}L{_pair(tip)}'
-        f'L{_pair(right)}"/>'
-    )
+        start, tip, left, right = map(_pair, arrow(mark.pixel, mark.normal))
+        yield f'<path class="normal" d="M{start}L{tip}M{left}L{tip}L{right}"/>'
 
 
 def _path(path: tuple[str, Sequence[Pixel]]) -> str:

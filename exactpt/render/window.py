@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, final
+from typing import Final, TypeAlias, final
 
 from exactpt.kernel.numbers import QQ, ceil, nearest_float
 
@@ -12,6 +13,12 @@ WIDTH: Final = 960
 HEIGHT: Final = 680
 LEAST: Final = (560, 240)
 MARGIN: Final = 48
+HEADER: Final = 60
+"""Height of the captions above a window."""
+ARROW: Final = 46.0
+"""Length in pixels of the normal of a contact, from its point."""
+
+Pixel: TypeAlias = tuple[float, float]
 
 
 @final
@@ -34,6 +41,17 @@ class Window:
         """Return the pixel of a point of the plane."""
         across, down = (x - self.left) * self.scale, (self.top - y) * self.scale
         return nearest_float(across), nearest_float(down)
+
+
+def arrow(tail: Pixel, direction: Pixel) -> tuple[Pixel, Pixel, Pixel, Pixel]:
+    """Return the start of an arrow just outside the ring at a contact, its tip, and both barbs."""
+    (x, y), length = tail, math.hypot(*direction)
+    dx, dy = (c / length for c in direction)
+    tip = (x + ARROW * dx, y + ARROW * dy)
+    left, right = (
+        (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx) for side in (1, -1)
+    )
+    return (x + 11 * dx, y + 11 * dy), tip, left, right
 
 
 def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:
