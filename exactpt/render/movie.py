@@ -183,7 +183,7 @@ def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Fra
     return Frame(
         window,
         time_in_words(film.end if contact is not None else t),
-        "" if contact is None else contact_in_words(contact, limit=1),
+        "" if contact is None else contact_in_words(contact),
         f"{sum(film.is_there(i, t) for i in range(len(bodies)))} bodies",
         tuple(
             Tile(

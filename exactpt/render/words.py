@@ -69,7 +69,7 @@ def incidences_in_words(contact: Contact) -> list[str]:
     ]
 
 
-def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
+def contact_in_words(contact: Contact, *, limit: int = 1) -> str:
     """Return one line: the first ``limit`` incidences and the number of others."""
     found = incidences_in_words(contact)
     more = [f"{len(found) - limit} more"] if len(found) > limit else []
