@@ -1,4 +1,4 @@
-"""Compiles the hot rooms by mypyc, where mypyc and a C compiler are found.
+"""Compiles the most used modules by mypyc, where mypyc and a C compiler are found.
 
 The sources are the same; without a compiler, or if it fails, the package is plain Python and
 works as well, slower. Only commands that build a wheel compile, not those that make the sdist,
@@ -28,7 +28,7 @@ from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 from setuptools.errors import BaseError, CCompilerError
 
-ROOMS = [
+COMPILED = [
     "exactpt/certificates/*.py",
     "exactpt/indices.py",
     "exactpt/kernel/counters.py",
@@ -60,7 +60,7 @@ COMPILING = {"bdist_wheel", "build", "build_ext", "install"}
 
 def sources() -> list[str]:
     """Return the paths of the modules to compile."""
-    found = sorted(path for pattern in ROOMS for path in glob(pattern))
+    found = sorted(path for pattern in COMPILED for path in glob(pattern))
     return [path for path in found if path not in EXACT and not path.endswith("__init__.py")]
 
 

@@ -37,7 +37,7 @@ OUTSIDE: Final = {
 }
 """Other files of the root that these pages link to."""
 ALONE: Final = "modules"
-"""The page of the modules that are in no room."""
+"""The page of the modules that are in no package."""
 LINK: Final = re.compile(r"(\]\(|src=\")(?!\w+:|#)([^)\"#]+)")
 
 
@@ -57,10 +57,10 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path in (ROOT / "examples").glob("*.py"):
         add(f"examples/{path.name}.txt", path.read_text(encoding="utf-8"))
     add("reference/index.md", "# Public names\n\n" + "\n".join(_public()))
-    add("reference/rooms.md", _rooms_page())
+    add("reference/packages.md", _packages_page())
     add("reference/commands.md", "\n".join(_commands()))
-    for room in (ALONE, *_rooms()):
-        add(f"reference/{room}.md", "\n".join(_modules(room)))
+    for package in (ALONE, *_packages()):
+        add(f"reference/{package}.md", "\n".join(_modules(package)))
     for name, page in _animations():
         add(f"gallery/{name}.html", page)
     for path, content in made():
@@ -151,24 +151,24 @@ def _commands() -> Iterator[str]:
         yield f"\n## `exactpt {name}`\n\n```text\n{command.get_help(context)}\n```"
 
 
-def _rooms() -> list[str]:
+def _packages() -> list[str]:
     return sorted(path.parent.name for path in (ROOT / "exactpt").glob("*/__init__.py"))
 
 
-def _rooms_page() -> str:
-    """The list of rooms, each with the first line of its docstring."""
+def _packages_page() -> str:
+    """The list of packages, each with the first line of its docstring."""
     lines = [f"- [modules of their own]({ALONE}.md): errors, files, the checker of proofs"]
-    for room in _rooms():
-        source = (ROOT / "exactpt" / room / "__init__.py").read_text(encoding="utf-8")
+    for package in _packages():
+        source = (ROOT / "exactpt" / package / "__init__.py").read_text(encoding="utf-8")
         first = (ast.get_docstring(ast.parse(source)) or "").partition("\n")[0]
-        lines.append(f"- [`exactpt.{room}`]({room}.md): {first}")
+        lines.append(f"- [`exactpt.{package}`]({package}.md): {first}")
     return "\n".join(["# Rooms", "", *lines, ""])
 
 
-def _modules(room: str) -> Iterator[str]:
-    yield f"# {'exactpt' if room == ALONE else f'exactpt.{room}'}\n"
+def _modules(package: str) -> Iterator[str]:
+    yield f"# {'exactpt' if package == ALONE else f'exactpt.{package}'}\n"
     folder = ROOT / "exactpt"
-    inside = folder.glob("[a-z]*.py") if room == ALONE else (folder / room).rglob("*.py")
+    inside = folder.glob("[a-z]*.py") if package == ALONE else (folder / package).rglob("*.py")
     for path in sorted(inside):
         name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
         yield f"::: {name}\n    options: {{show_root_full_path: true, show_submodules: false}}\n"

@@ -113,7 +113,7 @@ __all__ = [
     "write_shapes",
 ]
 
-_ROOMS: Final = {
+_MODULES: Final = {
     "exactpt.pairs.approach": (
         "Approach",
         "first_within",
@@ -196,7 +196,7 @@ _ROOMS: Final = {
     "exactpt.simulation.simulation": ("Simulation",),
 }
 
-_ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in names}
+_MODULE_OF: Final = {name: module for module, names in _MODULES.items() for name in names}
 
 
 for _name, _place in {
@@ -223,9 +223,9 @@ def __getattr__(name: str) -> object:
     """Return a public name or subpackage, imported on first use (PEP 562)."""
     if name in ("arrays", "batch"):
         return import_module(f"exactpt.{name}")
-    if name not in _ROOM_OF:
+    if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value: object = getattr(import_module(_ROOM_OF[name]), name)
+    value: object = getattr(import_module(_MODULE_OF[name]), name)
     globals()[name] = value
     return value
 

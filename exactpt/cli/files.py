@@ -163,10 +163,10 @@ class _WithFamilies(click.Command):
         super().format_epilog(ctx, formatter)
         from exactpt.scene.generate import CATALOGUE
 
-        rooms = ("Convex bodies", "Simple polygons", "Points", "Rounded bodies",
+        headings = ("Convex bodies", "Simple polygons", "Points", "Rounded bodies",
                  "Bodies with holes and parts", "Bodies that turn at a constant rate")  # fmt: skip
-        for room, families in zip(rooms, CATALOGUE.values(), strict=True):
-            with formatter.section(room):
+        for heading, families in zip(headings, CATALOGUE.values(), strict=True):
+            with formatter.section(heading):
                 formatter.write_dl(
                     [(name, family.__doc__ or "") for name, family in families.items()]
                 )

@@ -61,8 +61,8 @@ class _WithQuestions(click.Command):
         super().format_epilog(ctx, formatter)
         from exactpt.testing.families import DEGENERATE, GENERIC
 
-        for room, families in {"Degenerate": DEGENERATE, "Generic": GENERIC}.items():
-            with formatter.section(room):
+        for heading, families in {"Degenerate": DEGENERATE, "Generic": GENERIC}.items():
+            with formatter.section(heading):
                 rows = [(name, " ".join((f.__doc__ or "").split())) for name, f in families.items()]
                 formatter.write_dl(rows)
 
