@@ -36,6 +36,8 @@ OUTSIDE: Final = {
     "CITATION.cff": "sources/CITATION.cff.txt",
 }
 """Other files of the root that these pages link to."""
+TASKS: Final = ("reference/commands.md", "reference/index.md", "scale.md", "testing.md")
+"""Pages on tasks, beside those in howto."""
 ALONE: Final = "modules"
 """The page of the modules that are in no package."""
 LINK: Final = re.compile(r"(\]\(|src=\")(?!\w+:|#)([^)\"#]+)")
@@ -69,8 +71,15 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
-    """Links out of this folder lead to where these files are in the site."""
+    """Links out of this folder lead to where these files are in the site.
+
+    In a search, pages of packages are below all others, and those on tasks above.
+    """
     name = page.file.src_uri
+    if (name.startswith("reference/") and name not in TASKS) or name == "claims.md":
+        page.meta["search"] = {"boost": 0.2}
+    elif name.startswith("howto/") or name in TASKS:
+        page.meta["search"] = {"boost": 2}
     if name in PAGES.values() or name.startswith("reference/"):
         return markdown
     text = _moved(markdown, below="../" * (name.count("/") + 1))

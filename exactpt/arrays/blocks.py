@@ -9,10 +9,10 @@ import numpy as np
 from exactpt.arrays.answers import record_edges, record_overlaps
 from exactpt.arrays.candidates import Candidates, all_candidates, vertex_candidates
 from exactpt.arrays.contacts import Contacts
-from exactpt.arrays.meetings import INFINITY, first_meetings
+from exactpt.arrays.incidence_times import INFINITY, first_incidences
 from exactpt.arrays.motions import Motions, reaches
 from exactpt.arrays.outlines import Outlines
-from exactpt.arrays.radii import vertex_meetings
+from exactpt.arrays.radii import vertex_incidences
 from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
 from exactpt.arrays.sharpening import sharpened
 from exactpt.arrays.spans import Spans
@@ -89,7 +89,7 @@ class Block(NamedTuple):
     def _compare(self, k: Indices, unclear: Flags) -> None:
         """Record the contacts of the pairs k, of which some may touch at the start.
 
-        The first contact is certain if the enclosure of one candidate's meeting is before all
+        The first contact is certain if the enclosure of one candidate's incidence is before all
         other times at which a candidate touches or may touch. All incidences at the time of the
         first contact are of candidates that are left.
         """
@@ -99,14 +99,14 @@ class Block(NamedTuple):
         pair = candidates.pair
         relative = candidates.relative(o, motions)
         reaches = None if reach is None else reach[pair]
-        low, high = first_meetings(relative, length.take(pair), reaches)
+        low, high = first_incidences(relative, length.take(pair), reaches)
         best = np.minimum.reduceat(high, native(starts)).reshape(2, n).min(axis=0)
         left = np.flatnonzero((low <= best[pair]) & (low < INFINITY))
         left = left[~_beside_until(relative, low, high, best[pair], left)]
         if reach is not None:
             corners, starts = vertex_candidates(o, *two)
             until = np.minimum(best, length.high)
-            lows, highs = vertex_meetings(o, motions, corners, reach, until)
+            lows, highs = vertex_incidences(o, motions, corners, reach, until)
             highs[highs > length.low[corners.pair]] = INFINITY
             best = np.minimum(best, np.minimum.reduceat(highs, native(starts)))
             near = np.flatnonzero((lows <= best[corners.pair]) & (lows < INFINITY))
@@ -130,7 +130,7 @@ class Block(NamedTuple):
     def _record(
         self, k: Indices, hits: Candidates, cs: list[Coefficient], low: Floats, high: Floats
     ) -> None:
-        """Record one meeting for each of the pairs k; ``cs`` if it is a zero of an orientation."""
+        """Record an incidence of each of the pairs k; ``cs`` if it is a zero of an orientation."""
         o, second = self.outlines, hits.second == 1
         a, b = np.where(second, (self.j[k], self.i[k]), (self.i[k], self.j[k]))
         if self.is_rounded or not cs:

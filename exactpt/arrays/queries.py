@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from exactpt.arrays.answers import record, record_edges
 from exactpt.arrays.contacts import Contacts, Errors, masks
-from exactpt.arrays.meetings import INFINITY, Span, first_meetings
+from exactpt.arrays.incidence_times import INFINITY, Span, first_incidences
 from exactpt.arrays.relative import Relative, orientations
 from exactpt.arrays.sharpening import ExactRelative, sharpened
 from exactpt.arrays.spans import Spans, exact, read_spans
@@ -144,7 +144,7 @@ def _filtered(g: Floats, spans: Spans) -> tuple[Indices, Floats, Floats, Flags]:
         r = Relative(u, w, (off_u, None), (off_w, None), None)
     else:
         r = Relative(u[:1], w, (off_u,), (off_w, None), None)
-    low, high = first_meetings(r, spans.length)
+    low, high = first_incidences(r, spans.length)
     unsure = (low < INFINITY) & (high == INFINITY)
     unsure |= ~turning & (u[0][0] == 0.0) & (u[0][1] == 0.0)
     if len(r.u) == 2:

@@ -1,7 +1,7 @@
 """Bodies with radii in arrays: distances of cores at the start, and vertices at a distance.
 
 Two of which one has a radius touch where the distance of their cores is R, the sum of the radii:
-of a vertex and an edge as in `exactpt.arrays.meetings`; of two vertices, z apart, at the zeros of
+a vertex and an edge as in `exactpt.arrays.incidence_times`; two vertices, z apart, at the zeros of
 F = |z|^2 - R^2, a polynomial in s that is positive before the first contact. R is the rounded sum
 of two doubles, with a relative error of at most U.
 """
@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from exactpt.arrays.candidates import Candidates, all_candidates, shifted
-from exactpt.arrays.meetings import INFINITY, Meetings
+from exactpt.arrays.incidence_times import INFINITY, IncidenceTimes
 from exactpt.arrays.motions import Motions
 from exactpt.arrays.outlines import Outlines
 from exactpt.arrays.relative import Coefficient
@@ -63,9 +63,9 @@ def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tup
 
 
 @np.errstate(all="ignore")
-def vertex_meetings(
+def vertex_incidences(
     o: Outlines, motions: Motions, c: Candidates, reach: Floats, until: Floats
-) -> Meetings:
+) -> IncidenceTimes:
     """Return the first times at which pairs of vertices are at a distance.
 
     Args:
@@ -73,7 +73,7 @@ def vertex_meetings(
         motions: those of the pairs of bodies, which are farther apart at the start.
         c: the vertices.
         reach: the distance of each pair of bodies.
-        until: times after which a meeting does not count.
+        until: times after which an incidence does not count.
     """
     pair, moved = c.pair, motions.coefficients
     x, y, off = shifted(
@@ -90,7 +90,7 @@ def vertex_meetings(
     nothing = np.zeros(len(pair), dtype=np.bool_)
     signs, low, high = quadratics(c0, c1, c2, e0, e1, e2, 0.0, 0.0, end, nothing)
     low[signs == 0], high[signs == 0] = 0.0, INFINITY
-    return Meetings(low, high)
+    return IncidenceTimes(low, high)
 
 
 def _squares(z: Sequence[tuple[Floats, Floats, Floats]], reach: Floats) -> list[Coefficient]:
@@ -115,7 +115,7 @@ def _squares(z: Sequence[tuple[Floats, Floats, Floats]], reach: Floats) -> list[
     return found
 
 
-def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
+def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> IncidenceTimes:
     """Return the first zeros in [0, until] of polynomials that are positive at 0.
 
     A polynomial on an interval is between the least and the greatest of its Bernstein coefficients
@@ -170,7 +170,7 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
         b = np.concatenate((left, right[::-1]), axis=1)
         row, begin = np.tile(row, 2), np.concatenate((begin, begin + width))
     high[undecided <= high] = INFINITY
-    return Meetings(np.minimum(low, undecided), high)
+    return IncidenceTimes(np.minimum(low, undecided), high)
 
 
 def _zero(

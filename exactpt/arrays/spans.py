@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from exactpt.arrays.meetings import Span
+from exactpt.arrays.incidence_times import Span
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true
 from exactpt.kernel.numbers import QQ

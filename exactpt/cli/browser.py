@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from exactpt.cli.terminal import print_error
 from exactpt.cli.words import answer_in_words
-from exactpt.collision.searches import Question, search_for
+from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError
 from exactpt.scene.format import loads
 
@@ -31,7 +31,7 @@ def answer(scene: str, method: str, tiling: str) -> str:
 
     def answered() -> dict[str, str]:
         given = loads(scene)
-        search = search_for(given, Question(method, tiling))
+        search = search_for(given, ContactQuery(method, tiling))
         contact = search.run_to_contact()
         found = {
             "contact": contact and contact.to_json(),

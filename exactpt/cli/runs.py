@@ -29,7 +29,7 @@ from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
     from exactpt.collision.search import Search
-    from exactpt.collision.searches import Question
+    from exactpt.collision.searches import ContactQuery
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
@@ -131,11 +131,11 @@ def collide(
 
         answer = collide_all if every else collide_enclosed
         return answer(scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds)
-    from exactpt.collision.searches import Question
+    from exactpt.collision.searches import ContactQuery
 
     if proof is not None and since is not None:
         raise InputError("--since: a proof is about the scene file, from its start on")
-    question = Question(
+    question = ContactQuery(
         method,
         tiling,
         exact_only=exact_only,
@@ -155,7 +155,7 @@ def _first_contact(
     path: Path,
     until: QQ | None,
     since: QQ | None,
-    question: Question,
+    question: ContactQuery,
     *,
     as_json: bool,
     stats: bool,

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
-from exactpt.collision.searches import Question, search_for
+from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError, carrying
 from exactpt.kernel.budget import check_bounds, within
 from exactpt.kernel.numbers import Rational
@@ -77,7 +77,7 @@ def first_contact(
         given = scene
         if since is not None:
             scene = scene.since(since)
-        question = Question(
+        question = ContactQuery(
             method,
             tiling,
             exact_only=exact_only,

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from exactpt.collision.search import Search
 
 
-class Question(NamedTuple):
+class ContactQuery(NamedTuple):
     """A query for a first contact, and the way to answer it.
 
     Attributes:
@@ -42,7 +42,7 @@ class Question(NamedTuple):
     max_seconds: float | None = None
 
 
-def search_for(scene: Scene, question: Question) -> Search:
+def search_for(scene: Scene, question: ContactQuery) -> Search:
     """Return the search that answers a question.
 
     Args:
@@ -74,7 +74,7 @@ def search_for(scene: Scene, question: Question) -> Search:
     return TilingSearch(scene, tiling, exact_only=exact_only, max_events=most, max_seconds=seconds)
 
 
-def _certified(scene: Scene, question: Question) -> Search:
+def _certified(scene: Scene, question: ContactQuery) -> Search:
     """Return the search, whichever it is, that writes a certificate.
 
     Raises:
@@ -90,7 +90,7 @@ def _certified(scene: Scene, question: Question) -> Search:
     return certified
 
 
-def _selected(scene: Scene, question: Question) -> Search:
+def _selected(scene: Scene, question: ContactQuery) -> Search:
     """Return the search for contacts of some pairs, or for new ones.
 
     Raises:
@@ -114,7 +114,7 @@ def _selected(scene: Scene, question: Question) -> Search:
     )
 
 
-def _proved(scene: Scene, question: Question, path: Path) -> Search:
+def _proved(scene: Scene, question: ContactQuery, path: Path) -> Search:
     """Return the search by a tiling that writes a proof.
 
     Raises:

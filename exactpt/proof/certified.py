@@ -28,7 +28,7 @@ from exactpt.scene.written import to_json
 if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts
     from exactpt.collision.search import Search
-    from exactpt.collision.searches import Question
+    from exactpt.collision.searches import ContactQuery
     from exactpt.pairs.contact import Contact
 
 NEAR: Final = 22
@@ -147,7 +147,7 @@ class CertifiedSearch:
             with an earlier start.
     """
 
-    def __init__(self, search: Search, scene: Scene, question: Question) -> None:
+    def __init__(self, search: Search, scene: Scene, question: ContactQuery) -> None:
         assert question.certificate is not None  # noqa: S101
         self._search, self._path = search, question.certificate
         self._file = question.scene_file or scene_bytes(question.given or scene)

@@ -9,8 +9,8 @@ from exactpt.files import write_atomically
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import show
 from exactpt.pairs.surroundings import clearance
+from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
-from exactpt.render.frame import frame_of
 from exactpt.render.marked import film_of_run
 from exactpt.render.movie import write_movie
 from exactpt.render.page import page_of

@@ -12,8 +12,8 @@ from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
+from exactpt.render.canvas import Canvas, Line, Shape, Tile, marks_of
 from exactpt.render.fixed import near
-from exactpt.render.frame import Frame, Line, Shape, Tile, marks_of
 from exactpt.render.palette import body_colour
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
@@ -146,7 +146,7 @@ def _hundredths(k: int, fps: int) -> int:
     return round(100 / fps * (k + 1)) - round(100 / fps * k)
 
 
-def frames_of(film: Film, count: int) -> Iterator[Frame]:
+def frames_of(film: Film, count: int) -> Iterator[Canvas]:
     """Frames at ``count`` + 1 times, the first at the start and the last at the end."""
     start = film.scene._start
     end = near(film.end.simplified(), film.scene._end - start)
@@ -174,13 +174,13 @@ def _window(film: Film, times: list[QQ]) -> Window:
     )
 
 
-def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Frame:
+def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Canvas:
     bodies = film.scene.bodies
     pixels = [tuple(window.pixel(x, y) for x, y in body._at(t)) for body in bodies]
     nodes = [pixel for body in pixels for pixel in body]
     place = {body.name: pixels[i] for i, body in enumerate(bodies)}
     contact = film.contact if is_end else None
-    return Frame(
+    return Canvas(
         window,
         time_in_words(film.end if contact is not None else t),
         "" if contact is None else contact_in_words(contact),

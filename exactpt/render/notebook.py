@@ -6,8 +6,8 @@ from html import escape
 from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import BudgetExceeded
+from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
-from exactpt.render.frame import frame_of
 from exactpt.render.marked import film_of_run
 from exactpt.render.page import page_of
 from exactpt.render.still import Still, still_of

@@ -18,7 +18,7 @@ from exactpt.render.words import clean
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from exactpt.render.frame import Frame, Mark, Shape
+    from exactpt.render.canvas import Canvas, Mark, Shape
 
 _ZOOM: Final = 2
 _FONTS: Final = {
@@ -27,7 +27,7 @@ _FONTS: Final = {
 }
 
 
-def image_of(frame: Frame, theme: str) -> Image.Image:
+def image_of(frame: Canvas, theme: str) -> Image.Image:
     """Return a frame as an image of an even width and height, as encoders want it."""
     colours = DARK if theme == "dark" else LIGHT
     width, height = frame.window.width, frame.window.height + HEADER

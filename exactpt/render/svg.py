@@ -11,7 +11,7 @@ from exactpt.render.window import HEADER, Pixel, arrow
 from exactpt.render.words import clean, short
 
 if TYPE_CHECKING:
-    from exactpt.render.frame import Frame, Line, Mark, Shape, Tile
+    from exactpt.render.canvas import Canvas, Line, Mark, Shape, Tile
 
 _COLUMN: Final = 190
 """Width of a legend."""
@@ -19,7 +19,7 @@ _ROW: Final = 18
 _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
 
-def svg_of(frame: Frame, *, theme: str = "auto") -> str:
+def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
     """Return the picture as an SVG document.
 
     Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window is

@@ -16,9 +16,9 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.shadow import shadow
+from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
 from exactpt.render.fixed import near
-from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
 from exactpt.render.palette import body_colour
 from exactpt.render.still import still

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from exactpt import Body, Scene, Translation, first_contact
-from exactpt.collision.searches import Question, search_for
+from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.outline import straight_pieces
 from exactpt.pairs.boxes import PieceBoxes
@@ -34,7 +34,7 @@ def planks(n, degrees, spread=0.0):
 @pytest.mark.parametrize("degrees, spread", [(45, 0), (20, 0), (70, 0.01)])
 def test_planks_side_by_side_are_compared_with_few_others(degrees, spread):
     scene = planks(60, degrees, spread)
-    search = search_for(scene, Question("auto", "auto"))
+    search = search_for(scene, ContactQuery("auto", "auto"))
     assert search.run_to_contact() is None
     assert search.stats["certificates"] <= 60  # of 1,770 pairs whose boxes overlap
 

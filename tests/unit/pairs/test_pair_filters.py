@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from exactpt import Body, BudgetExceeded, Scene, Translation, first_contact
-from exactpt.collision.searches import Question, search_for
+from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.outline import straight_pieces
 from exactpt.pairs import search
@@ -124,7 +124,7 @@ def test_search_interrupted_between_pieces_has_passed_no_contact(monkeypatch):
         claimed.append(running.passed())
 
     monkeypatch.setattr(search._Search, "compare", watched)
-    running = search_for(scene, Question("auto", "auto"))
+    running = search_for(scene, ContactQuery("auto", "auto"))
     assert running.passed() is None
     assert running.run_to_contact().time == first
     assert len(claimed) >= 4
@@ -135,7 +135,7 @@ def test_search_interrupted_between_pieces_has_passed_no_contact(monkeypatch):
 
 def test_linear_search_out_of_time_says_so():
     bodies = [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(4, -1), (4, 1)])]
-    running = search_for(Scene(bodies, time=(0, 9)), Question("auto", "auto", max_seconds=0.0))
+    running = search_for(Scene(bodies, time=(0, 9)), ContactQuery("auto", "auto", max_seconds=0.0))
     with pytest.raises(BudgetExceeded) as spent:
         running.run_to_contact()
     assert spent.value.reached == 0

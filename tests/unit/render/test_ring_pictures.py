@@ -6,9 +6,9 @@ import pytest
 
 from exactpt import Body, Scene, Translation
 from exactpt.kernel.numbers import QQ
+from exactpt.render.canvas import frame_of
 from exactpt.render.data import data_of
 from exactpt.render.film import film_of
-from exactpt.render.frame import frame_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
 from exactpt.tiling.start import TILINGS

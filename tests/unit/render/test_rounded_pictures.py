@@ -7,10 +7,10 @@ import pytest
 from exactpt import Body, InputError, Scene, Translation
 from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ
+from exactpt.render.canvas import frame_of
 from exactpt.render.data import data_of
 from exactpt.render.draw import draw
 from exactpt.render.film import film_of
-from exactpt.render.frame import frame_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
 

@@ -13,9 +13,9 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.render.canvas import arrow_boxes, frame_of
 from exactpt.render.draw import draw
 from exactpt.render.film import film_of
-from exactpt.render.frame import arrow_boxes, frame_of
 from exactpt.render.page import page_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of

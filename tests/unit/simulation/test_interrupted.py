@@ -15,7 +15,7 @@ from exactpt import (
     Translation,
     first_contact,
 )
-from exactpt.collision.searches import Question, search_for
+from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import ExactPTError
 from exactpt.kernel import budget as kernel_budget
 from exactpt.kernel.budget import ask
@@ -54,7 +54,7 @@ def searches(scene, folder):
     """A function that makes a search, by the name of the method."""
 
     def ask_for(method, **options):
-        return lambda: search_for(scene, Question(method, "auto", **options))
+        return lambda: search_for(scene, ContactQuery(method, "auto", **options))
 
     found = {"pairs": ask_for("pairs"), "auto": ask_for("auto")}
     if not scene.is_rounded:

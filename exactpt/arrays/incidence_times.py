@@ -27,7 +27,7 @@ class Span(NamedTuple):
         return Span(self.low[index], self.high[index])
 
 
-class Meetings(NamedTuple):
+class IncidenceTimes(NamedTuple):
     """An enclosure of the first time s at which a vertex is on its edge.
 
     Both are infinite if it never is during the span; if ``low`` alone is finite, it is open
@@ -40,8 +40,8 @@ class Meetings(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def first_meetings(r: Relative, span: Span, reach: Floats | None = None) -> Meetings:
-    """Return the first meetings during 0 <= s <= span, the start included.
+def first_incidences(r: Relative, span: Span, reach: Floats | None = None) -> IncidenceTimes:
+    """Return the first incidences during 0 <= s <= span, the start included.
 
     Of cores that keep a distance R (``reach``, with a relative error of at most U) and that are
     farther apart at the start, the first times at which the vertex is at this distance from the
@@ -54,23 +54,23 @@ def first_meetings(r: Relative, span: Span, reach: Floats | None = None) -> Meet
     """
     cs = orientations(r)
     if reach is None:
-        return _first_meetings(r, cs, span)
+        return _first_incidences(r, cs, span)
     (c0, e0), (c1, e1) = cs[:2]
     ux, uy = r.u[0]
     h = reach * np.hypot(ux, uy)
     e0 = e0 + (16.0 * U * h + 2.0 * U * np.abs(c0)) * SLACK + TINY * (1.0 + np.abs(ux) + np.abs(uy))
     shifts = [h, -h] if len(cs) > 2 else [np.copysign(h, np.where(np.abs(c1) > e1, c1, -c0))]
-    found = [_first_meetings(r, [(c0 + shift, e0), *cs[1:]], span) for shift in shifts]
+    found = [_first_incidences(r, [(c0 + shift, e0), *cs[1:]], span) for shift in shifts]
     low, high = (np.minimum.reduce(columns) for columns in zip(*found, strict=True))
     for each in found:
         high[(each.low <= high) & (each.low < INFINITY) & (each.high == INFINITY)] = INFINITY
     if r.length is not None:  # points: two vertices
         low[r.length == 0.0] = high[r.length == 0.0] = INFINITY
-    return Meetings(low, high)
+    return IncidenceTimes(low, high)
 
 
-def _first_meetings(r: Relative, cs: Sequence[Coefficient], span: Span) -> Meetings:
-    """Return the first meetings, given the polynomials that vanish while the vertex is on the line.
+def _first_incidences(r: Relative, cs: Sequence[Coefficient], span: Span) -> IncidenceTimes:
+    """Return the first incidences, by the polynomials that vanish while a vertex is on its line.
 
     A vertex is on the line of its edge at the zeros of the orientation. The first zero after the
     start is looked at, and where the vertex surely is beside the edge there, the second. A zero
@@ -93,7 +93,7 @@ def _first_meetings(r: Relative, cs: Sequence[Coefficient], span: Span) -> Meeti
     if len(left):
         beside = sides(r.take(left), low[left], span.high[left])[1]
         low[left[beside]] = INFINITY
-    return Meetings(low, high)
+    return IncidenceTimes(low, high)
 
 
 def _settle(r: Relative, cs: Sequence[Coefficient], span: Span, low: Floats, high: Floats) -> None:

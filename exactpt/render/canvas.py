@@ -88,7 +88,7 @@ class Mark:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Canvas:
     """A picture; its parts are painted in the order tiles, shapes, lines, marks.
 
     Attributes:
@@ -117,7 +117,7 @@ class Frame:
     scale: tuple[float, str] | None = None
 
 
-def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
+def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
     """Return the drawing primitives of a still, see `exactpt.render.draw.draw`."""
     scene = still.scene
     places = {body.name: body._at(still.at) for body in scene.bodies}
@@ -172,7 +172,7 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
         both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
         news = both if len(both) * _LETTER < window.width else one
     ghosts, paths = _ghosts(others, poses, shapes, window)
-    return Frame(
+    return Canvas(
         window, caption, news, note, tiles, shapes, lines, marks, ghosts, paths,
         tuple((shape.colour, shape.name) for shape in shapes) if legend else (),
         _scale_bar(window) if legend else None,
