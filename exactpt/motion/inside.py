@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import product
+from typing import Final
 
 from exactpt.geometry.polygon import contains
 from exactpt.geometry.predicates import Point
 from exactpt.motion.body import Body
+
+FEW: Final = 16
+"""Maximum number of pairs of a ring and a place of which all are tested."""
 
 
 def covers(body: Body, points: Sequence[Point], p: Point) -> bool:
@@ -15,21 +20,37 @@ def covers(body: Body, points: Sequence[Point], p: Point) -> bool:
 
 
 def one_is_inside(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> bool:
-    """Return True if a point of one body is in the other, if their boundaries are disjoint.
+    """Return True if a point of one body is in the other, if their boundaries are disjoint."""
+    return bool(nested_pairs({0: (a, p), 1: (b, q)}, [(0, 1)]))
 
-    Let a point be in both. On a path from it within its part of a, or within that of b, the
+
+def nested_pairs(
+    bodies: Mapping[int, tuple[Body, Sequence[Point]]], apart: Iterable[tuple[int, int]]
+) -> set[tuple[int, int]]:
+    """Return those pairs i < j, of pairs with disjoint boundaries, that have a point in common.
+
+    Let a point be in both. On a path from it within its part of i, or within that of j, the
     boundary of one of them comes first; this point of it is in the other body, and so is the
-    whole ring. So one vertex of each ring decides.
+    whole ring. So one vertex of each ring decides: whether it is in an odd number of rings.
+
+    Args:
+        bodies: the bodies by number, with the points of their vertices.
+        apart: the pairs.
     """
-    return _has_ring(a, p, b, q) or _has_ring(b, q, a, p)
+    compared = set(apart)
+    rings = [(i, points[r.start : r.stop]) for i, (body, points) in bodies.items()
+             for r in body.rings]  # fmt: skip
+    solid = [(i, ring) for i, ring in rings if bodies[i][0].has_interior]
+    near: Iterable[tuple[int, int]] = product(range(len(solid)), range(len(rings)))
+    if len(solid) * len(rings) > FEW:
+        from exactpt.geometry.boxes import boxes_of_points, crossing_pairs
 
-
-def _has_ring(body: Body, points: Sequence[Point], other: Body, places: Sequence[Point]) -> bool:
-    """Return True if a polygon contains the first vertex of a ring of another body."""
-    if not body.has_interior:
-        return False
-    firsts = [places[ring.start] for ring in other.rings]
-    if len(firsts) > 1:
-        (left, right), (low, high) = ((min(c), max(c)) for c in zip(*points, strict=True))
-        firsts = [(x, y) for x, y in firsts if left <= x <= right and low <= y <= high]
-    return any(covers(body, points, first) for first in firsts)
+        boxes = boxes_of_points([*(ring for _, ring in solid), *(ring[:1] for _, ring in rings)])
+        chunks = crossing_pairs(boxes[: len(solid)], boxes[len(solid) :])
+        near = (two for i, j in chunks for two in zip(i.tolist(), j.tolist(), strict=True))
+    inside: set[tuple[int, int]] = set()
+    for k, of_other in near:
+        (i, ring), (j, other) = solid[k], rings[of_other]
+        if ((i, j) if i < j else (j, i)) in compared and contains(ring, other[0]):
+            inside ^= {(i, of_other)}
+    return {(min(i, rings[k][0]), max(i, rings[k][0])) for i, k in inside}

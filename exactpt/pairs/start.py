@@ -19,7 +19,7 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.incidence import Touch, renumbered
-from exactpt.motion.inside import one_is_inside
+from exactpt.motion.inside import nested_pairs
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs
@@ -70,12 +70,10 @@ def initial_touches(
             touches.update(incidences(f, e))
             _check_count(pairs)
     for first, second in _chunks(points, near):
-        for i, j in zip(first, second, strict=True):
-            ask()
-            a, b = scene.bodies[i], scene.bodies[j]
-            if (i, j) not in pairs and one_is_inside(a, points[i], b, points[j]):
-                pairs.add((i, j))
-                _check_count(pairs)
+        ask()
+        involved = {i: (scene.bodies[i], points[i]) for i in {*first, *second}}
+        pairs |= nested_pairs(involved, set(zip(first, second, strict=True)) - pairs)
+        _check_count(pairs)
     return sorted(touches), sorted(pairs)
 
 
