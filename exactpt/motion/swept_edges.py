@@ -171,16 +171,26 @@ class SweptEdges:
     def meeting(self, boxes: Boxes, edge_boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
         """Yield the pairs of a vertex and an edge whose boxes intersect, in blocks.
 
-        Pairs of one rigid body whose box intersects no other may be omitted.
+        Pairs of one rigid body may be omitted if one of them is near no other body.
         """
+        of_edge = self.body[self.ends[:, 0]]
         if len(self._first) < MANY:
-            yield from crossing_pairs(boxes, edge_boxes)
-            return
-        busy = self._busy(boxes)
-        some = np.flatnonzero(busy[self.body])
-        others = np.flatnonzero(busy[self.body[self.ends[:, 0]]])
+            hulls = self.of_bodies(boxes)
+            some = np.flatnonzero(self._near_others(self.body, boxes, hulls))
+            others = np.flatnonzero(self._near_others(of_edge, edge_boxes, hulls))
+        else:
+            busy = self._busy(boxes)
+            some, others = np.flatnonzero(busy[self.body]), np.flatnonzero(busy[of_edge])
         for first, second in crossing_pairs(boxes[some], edge_boxes[others]):
             yield some[first], others[second]
+
+    def _near_others(self, body: Indices, boxes: Boxes, hulls: Boxes) -> NDArray[np.bool_]:
+        """For each box of a body, whether the body deforms, or the box of another intersects it."""
+        near = self.deforms[body]
+        for j, (left, right, low, high) in enumerate(hulls.tolist()):
+            meets = (boxes[:, 0] <= right) & (boxes[:, 1] >= left) & (body != j)
+            near |= meets & (boxes[:, 2] <= high) & (boxes[:, 3] >= low)
+        return near
 
     def _busy(self, boxes: Boxes) -> NDArray[np.bool_]:
         """For each body, whether it deforms, or its box intersects that of another one."""

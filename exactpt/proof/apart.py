@@ -305,7 +305,7 @@ class Separation:
         alone = np.logical_and.accumulate(group == group[0], axis=0)[:-1].astype(float)
         alone += np.logical_and.accumulate(group[::-1] == group[-1], axis=0)[::-1][1:]
         k = np.arange(1, count)[:, None]
-        worth = np.minimum(k, count - k) / count + 0.5 * alone + 0.3 * np.minimum(clear, 0.3)
+        worth = np.minimum(k, count - k) / count + 0.4 * alone + 0.3 * np.minimum(clear, 0.3)
         worth -= 0.1 * (np.abs(directions).max(axis=1) > 1e6)  # longer numbers
         worth[~(clear > (CLEAR if count > FEW else CLOSE))] = -1.0
         best, found = worth.argmax(axis=0), []
