@@ -23,6 +23,9 @@ Near: TypeAlias = tuple[Indices, Indices]
 MANY: Final = 8
 """Number of bodies from which on those that are near no other are left out first."""
 
+SMALL: Final = 64
+"""Number of vertices, of fewer bodies than that, below which all are compared with all edges."""
+
 PATIENCE: Final = 8
 """Number of slabs after which one as long as the last that was too long is tried again."""
 
@@ -173,6 +176,9 @@ class SweptEdges:
 
         Pairs of one rigid body may be omitted if one of them is near no other body.
         """
+        if len(self._first) < MANY and len(self.ids) < SMALL:
+            yield from crossing_pairs(boxes, edge_boxes)
+            return
         of_edge = self.body[self.ends[:, 0]]
         if len(self._first) < MANY:
             hulls = self.of_bodies(boxes)
