@@ -1,5 +1,6 @@
 """What the tiers of the tests stand on: cases in a loop, budgets, and a case for every package."""
 
+import os
 import re
 import subprocess
 import sys
@@ -42,7 +43,8 @@ def run(tmp_path, text, *options):
     program += [ROOT / "pyproject.toml", "--rootdir", ROOT, "--confcutdir", ROOT]
     return subprocess.run(
         [*program, "-p", "conftest", tmp_path / "test_tried.py", *options],
-        cwd=ROOT / "tests", capture_output=True, text=True, check=False,
+        cwd=ROOT / "tests", env={**os.environ, "QUICK_BUDGET": "0.25"},
+        capture_output=True, text=True, check=False,
     ).stdout  # fmt: skip
 
 
