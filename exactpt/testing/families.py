@@ -52,7 +52,7 @@ def corner_to_corner(rng: Random) -> Pass:
 
 
 def edge_to_edge(rng: Random) -> Pass:
-    """Two parallel edges that touch flat."""
+    """Two parallel edges that meet flat."""  # printed into the published set
     gap, shift = rng.randint(1, 6), rng.randint(-2, 2)
     moving = _moved(box(-2, 0, 2, rng.randint(1, 3)), -gap, shift)
     aside = _one_of(rng, 0, 0, QQ(1, 4))
