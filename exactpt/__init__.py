@@ -114,19 +114,10 @@ __all__ = [
 ]
 
 _MODULES: Final = {
-    "exactpt.pairs.approach": (
-        "Approach",
-        "first_within",
-    ),
-    "exactpt.pairs.contact": (
-        "Contact",
-        "Pair",
-    ),
+    "exactpt.pairs.approach": ("Approach", "first_within"),
+    "exactpt.pairs.contact": ("Contact", "Pair"),
     "exactpt.collision.detector": ("first_contact",),
-    "exactpt.collision.enclosed": (
-        "EnclosedContact",
-        "first_contact_enclosed",
-    ),
+    "exactpt.collision.enclosed": ("EnclosedContact", "first_contact_enclosed"),
     "exactpt.pairs.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",
@@ -136,63 +127,28 @@ _MODULES: Final = {
         "UnreachableError",
     ),
     "exactpt.exchange.features": ("to_features",),
-    "exactpt.exchange.instants": (
-        "from_datetime",
-        "to_datetime",
-    ),
-    "exactpt.exchange.files": (
-        "read_shapes",
-        "write_shapes",
-    ),
+    "exactpt.exchange.instants": ("from_datetime", "to_datetime"),
+    "exactpt.exchange.files": ("read_shapes", "write_shapes"),
     "exactpt.kernel.algebraic": ("AlgebraicNumber",),
     "exactpt.kernel.polynomial": ("Polynomial",),
     "exactpt.motion.body": ("Body",),
-    "exactpt.motion.local_time": (
-        "Velocity",
-        "in_local_time",
-        "spline",
-    ),
-    "exactpt.motion.motions": (
-        "Affine",
-        "Pieces",
-        "Rigid",
-        "Translation",
-    ),
+    "exactpt.motion.local_time": ("Velocity", "in_local_time", "spline"),
+    "exactpt.motion.motions": ("Affine", "Pieces", "Rigid", "Translation"),
     "exactpt.motion.pose_path": ("PosePath",),
     "exactpt.motion.spin": ("Spin",),
     "exactpt.proof.certified": ("certify",),
-    "exactpt.proof.written": (
-        "Proof",
-        "prove",
-    ),
+    "exactpt.proof.written": ("Proof", "prove"),
     "exactpt.pairs.clearance": ("Clearance",),
-    "exactpt.pairs.surroundings": (
-        "Surroundings",
-        "clearance",
-    ),
-    "exactpt.pairs.distance": (
-        "Distance",
-        "distance",
-    ),
-    "exactpt.pairs.intervals": (
-        "ContactInterval",
-        "contact_intervals",
-        "contacts",
-    ),
-    "exactpt.query.answers": (
-        "Hit",
-        "Path",
-        "Place",
-    ),
+    "exactpt.pairs.surroundings": ("Surroundings", "clearance"),
+    "exactpt.pairs.distance": ("Distance", "distance"),
+    "exactpt.pairs.intervals": ("ContactInterval", "contact_intervals", "contacts"),
+    "exactpt.query.answers": ("Hit", "Path", "Place"),
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),
     "exactpt.simulation.event": ("Event",),
     "exactpt.simulation.history": ("History",),
     "exactpt.simulation.motion_changes": ("onward",),
-    "exactpt.simulation.responses": (
-        "Bounce",
-        "stop",
-    ),
+    "exactpt.simulation.responses": ("Bounce", "stop"),
     "exactpt.simulation.simulation": ("Simulation",),
 }
 
