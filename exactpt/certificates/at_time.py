@@ -28,7 +28,7 @@ from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Floats, Indices, items
 from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
@@ -75,10 +75,8 @@ class PredicatesAt(Predicates):
         self._exact: dict[VertexId, Point] = {}
         # The error of a difference of coordinates is at most d plus its own rounding.
         self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
-        xs: list[float] = self._xs.tolist()
-        ys: list[float] = self._ys.tolist()
-        self._x: vec[float] = vec[float](xs)
-        self._y: vec[float] = vec[float](ys)
+        self._x: vec[float] = vec[float](items(self._xs))
+        self._y: vec[float] = vec[float](items(self._ys))
         d = self._d = 2.0 * error
         is_exact = d == 0.0 and not exact_only
         self._places = ExactPlaces(vertices, self._x, self._y, are_exact=is_exact, after=after)

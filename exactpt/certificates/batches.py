@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from exactpt.certificates.coefficients import K
+from exactpt.indices import VertexId
 from exactpt.kernel.doubles import Floats, Indices, view
 from exactpt.kernel.rounding import SLACK
 from exactpt.kernel.vectorized import Answers, quadratics
@@ -30,7 +31,7 @@ def linear_orientations(
     if others:
         places = places.copy()
         for v in others:
-            image = vertices.all[v].image
+            image = vertices.all[VertexId(v)].image
             places[v, MOTION] = image.motion if image.degree <= 1 and not image.ws else OTHER_MOTION
     blocks = [
         _orientations(places, nodes, errors, ids[first : first + BLOCK], now_low, now_high, end)

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.counters import Counters
     from exactpt.kernel.doubles import Indices
     from exactpt.kernel.vectorized import Answers
-    from exactpt.motion.vertex import Vertex
+    from exactpt.motion.vertex import Vertex, VertexList
     from exactpt.motion.vertices import Vertices
 
 FEW: Final = 16
@@ -67,7 +67,7 @@ class Certifier:
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
         self._vertices = vertices
-        self.all: list[Vertex] = vertices.all
+        self.all: VertexList = vertices.all
         self.end: QQ = end
         self._end_high: float = vertices.frame.time(end)[1]
         self.exact_only: bool = exact_only
@@ -106,7 +106,8 @@ class Certifier:
         if time.exact is not None:
             return Moment(time, (), self._vertices.frame)
         ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
-        stages = tuple([(self.all[v].moving.stage, self.all[v].index) for v in ids])
+        vertices = [self.all[VertexId(v)] for v in ids]
+        stages = tuple([(v.moving.stage, v.index) for v in vertices])
         return Moment(time, stages, self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
@@ -119,10 +120,10 @@ class Certifier:
 
     def _numbered(self, time: EventTime) -> tuple[Numbered, ...]:
         """Return the vertices of an event, as in `exact_time`."""
-        u, v = self.all[time.a], self.all[time.b]
+        u, v = self.all[VertexId(time.a)], self.all[VertexId(time.b)]
         if time.c == X_ORDER:
             return (u.piece, u.index), (v.piece, v.index)
-        w = self.all[time.c]
+        w = self.all[VertexId(time.c)]
         return (u.piece, u.index), (v.piece, v.index), (w.piece, w.index)
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
@@ -211,9 +212,7 @@ class Certifier:
         va, vb, vc = every[a], every[b], every[c]
         if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
             return UNSURE
-        horizon = self._horizon(va, vb)
-        if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
-            horizon = vc.horizon
+        horizon = min(self._horizon(a, b), self._vertices.places[WIDTH * c + HORIZON])
         answer = self.filter_orientation(a, b, c, horizon, self.vanishes_now(a, b, c))
         return answer if answer[1] <= horizon else (answer[0], INFINITY, INFINITY)
 
@@ -285,14 +284,10 @@ class Certifier:
                 return True
         return False
 
-    def _horizon(self, a: Vertex, b: Vertex) -> float:
+    def _horizon(self, a: VertexId, b: VertexId) -> float:
         """Return an upper bound of the time until which the motions of two vertices are known."""
-        high = self._end_high
-        if a.horizon < high:  # noqa: PLR1730 - `min` is a call in plain Python
-            high = a.horizon
-        if b.horizon < high:  # noqa: PLR1730
-            high = b.horizon
-        return high
+        places = self._vertices.places
+        return min(self._end_high, places[WIDTH * a + HORIZON], places[WIDTH * b + HORIZON])
 
     def _until(self, *vertices: Vertex) -> QQ:
         until = self.end
@@ -381,10 +376,11 @@ class Certifier:
     def filtered_x_order(self, a: VertexId, b: VertexId) -> Answer:
         """Count a certificate, and return the filter's answer, as `filtered_orientation`."""
         self.made += 1
-        va, vb = self.all[a], self.all[b]
-        if self.exact_only or va.is_copy_of(vb):
+        places = self._vertices.places
+        is_other = OTHER_MOTION in (places[WIDTH * a + MOTION], places[WIDTH * b + MOTION])
+        if self.exact_only or (is_other and self.all[a].is_copy_of(self.all[b])):
             return UNSURE
-        horizon = self._horizon(va, vb)
+        horizon = self._horizon(a, b)
         s, low, high = self.filter_x_difference(a, b, horizon, self.vanishes_now(a, b, X_ORDER))
         if s != 0:
             self.counters.filtered += 1

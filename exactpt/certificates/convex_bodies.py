@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.kernel.doubles import view
 
 
 def all_stay_convex(instant: PredicatesAt) -> bool:
@@ -11,11 +14,12 @@ def all_stay_convex(instant: PredicatesAt) -> bool:
     False if there is an open chain of more than two vertices, even a straight one: it may
     bend later.
     """
-    v, bodies = instant.vertices.all, instant.vertices.bodies
+    vertices, bodies = instant.vertices, instant.vertices.bodies
     if any(
         b.is_tiled or not (b.is_polygon or (b.body.size < 3 and not b.body.has_rings))
         for b in bodies
     ):
         return False
-    triples = [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]
-    return all(s <= 0 for s in instant.signs(triples))
+    ids = np.array(vertices.ids(), np.int64)
+    ahead, behind = view(vertices.next_ids)[ids], view(vertices.previous_ids)[ids]
+    return not (instant.signs_of(np.stack((ahead, ids, behind), axis=1)) > 0).any()

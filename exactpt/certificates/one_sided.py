@@ -14,7 +14,7 @@ from exactpt.indices import VertexId
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
     from exactpt.kernel.integer_polynomial import IntPoly
-    from exactpt.motion.vertex import Vertex
+    from exactpt.motion.vertex import Vertex, VertexList
 
 
 @final
@@ -23,7 +23,7 @@ class OneSided(Predicates):
 
     def __init__(self, certifier: Certifier, *, before: bool) -> None:
         self._certifier = certifier
-        self._all: list[Vertex] = certifier.all
+        self._all: VertexList = certifier.all
         self._before: bool = before
 
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:

@@ -6,6 +6,7 @@ from typing import Final, final
 
 import numpy as np
 
+from exactpt.indices import VertexId
 from exactpt.kernel.doubles import Floats, view
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.image import Image
@@ -40,7 +41,7 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     single = Positions(vertices)
     single.move_to(low, high)
     for k in np.flatnonzero(places[:, MOTION] == OTHER_MOTION).tolist():
-        vertex = vertices.all[k]
+        vertex = vertices.all[VertexId(k)]
         if vertex.image.degree > 1 or vertex.image.ws:
             single.find(vertex)
             x[k], y[k], error[k] = vertex.x, vertex.y, vertex.error

@@ -7,7 +7,7 @@ times by slot. Cancelled events are dropped when they reach the top.
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Final, Protocol, final
+from typing import Final, Protocol, final
 
 import numpy as np
 from librt.vecs import append, vec
@@ -18,11 +18,9 @@ from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.doubles import Floats, Indices, items
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.rounding import INFINITY
-
-if TYPE_CHECKING:
-    from exactpt.kernel.doubles import Floats, Indices
 
 NO_CERTIFICATE: Final = CertificateId(-1)
 
@@ -136,9 +134,7 @@ class EventQueue(Calendar):
         n = int(parts[-1]) + 1
         spans, keys = np.full((n, 2), INFINITY), np.zeros((n, 3), np.int32)
         spans[parts, 0], spans[parts, 1], keys[parts] = lows, highs, ids
-        ends: list[float] = spans.ravel().tolist()
-        numbers: list[i32] = keys.ravel().tolist()
-        self._spans[kind], self._keys[kind] = vec[float](ends), vec[i32](numbers)
+        self._spans[kind], self._keys[kind] = vec[float](items(spans)), vec[i32](items(keys))
         self._count += len(parts)
         self._heap_size = 0  # its slots may be beyond the new rows; the calendar has all events
         self._make_calendar()

@@ -89,6 +89,11 @@ def view(vector: Any) -> NDArray[Any]:  # noqa: ANN401 - its type is that of no 
     return np.asarray(memoryview(vector))
 
 
+def items(array: NDArray[Any]) -> Any:  # noqa: ANN401 - what a vector of librt accepts
+    """Return the items of an array in memory order, of which a vector makes no objects."""
+    return np.ascontiguousarray(array).reshape(-1).data
+
+
 def native(counts: Indices) -> NDArray[np.intp]:
     """Return counts or indices as `numpy.repeat`, ``reduceat`` and `numpy.bincount` take them.
 

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
 from librt.vecs import append, vec
-from mypy_extensions import i64
+from mypy_extensions import i32, i64
 
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.doubles import items
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
@@ -27,7 +28,7 @@ from exactpt.motion.image import Image
 from exactpt.motion.infinitesimal import displacements
 from exactpt.motion.linear_rows import LinearRows, linear_rows
 from exactpt.motion.ring_order import ring_indices
-from exactpt.motion.vertex import MovingBody, Vertex, unused
+from exactpt.motion.vertex import MovingBody, Vertex, VertexList, unused
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
@@ -68,10 +69,13 @@ class Vertices:
         counters: the counts of decisions about these vertices.
         frame: the normalisation of the enclosures.
         enclosures: the enclosures of the trajectories.
-        places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`,
-            `Vertex.horizon` and the number of the motion. The latter is `OTHER_MOTION` unless the
-            vertex is in linear translation, without infinitesimal copies; the other coefficients
-            of `Image` are then 0. An addition of a body may move the vector.
+        places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`; the
+            horizon, a double at least ``until`` of the body, normalised, infinite if that is None;
+            the number of the motion. The latter is `OTHER_MOTION` unless the vertex is in linear
+            translation, without infinitesimal copies; the other coefficients of `Image` are then
+            0. An addition of a body may move the vector.
+        next_ids, previous_ids: of each id, those of its neighbours on its ring, -1 if unused; an
+            addition of a body may move these vectors too.
         changes: how often trajectories have changed, or bodies been added or removed.
     """
 
@@ -92,11 +96,14 @@ class Vertices:
         self.changes: int = 0
         self._plain: bool = plain
         self._end: QQ = end
-        self.all: list[Vertex] = [
-            unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
-        ]
-        empty = UNUSED * len(self.all)
+        n = sum(map(len, rings)) + len(free)
+        self.all: VertexList = VertexList([], vec[i32](), vec[i32]())
+        for v in range(n):
+            self.all.append(unused(VertexId(v)))
+        empty, none = UNUSED * n, [i32(-1)] * n
         self.places: vec[float] = vec[float](empty)
+        self.next_ids: vec[i32] = vec[i32](none)
+        self.previous_ids: vec[i32] = vec[i32](none)
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
         for k, (ring, t) in enumerate(zip(rings, since, strict=True)):
@@ -130,31 +137,25 @@ class Vertices:
         self = cls([], [], [], rows.frame, end)
         self.changes = len(bodies)
         motions = self.enclosures.begin_linear(rows.velocities, rows.error)
-        counts = np.diff(rows.offsets)
-        places = np.zeros((len(rows.indices), int(WIDTH)))
+        first, sizes = rows.offsets[:-1], np.diff(rows.offsets)
+        ids = np.arange(len(rows.indices), dtype=np.int32)
+        owners = np.repeat(np.arange(len(bodies), dtype=np.int32), sizes)
+        places = np.zeros((len(ids), int(WIDTH)))
         places[:, :4] = rows.coefficients
-        places[:, HORIZON], places[:, MOTION] = INFINITY, np.repeat(motions, counts)
-        flat: list[float] = places.ravel().tolist()
-        self.places = vec[float](flat)
-        name_of = getattr(bodies, "name", None)
-        indices: list[int] = rows.indices.tolist()
-        first: i64 = 0
-        for i, size in enumerate(counts.tolist()):
+        places[:, HORIZON], places[:, MOTION] = INFINITY, motions[owners]
+        self.places = vec[float](items(places))
+        ahead, behind = np.roll(ids, -1), np.roll(ids, 1)
+        ahead[rows.offsets[1:] - 1], behind[first] = first, rows.offsets[1:] - 1
+        self.next_ids, self.previous_ids = vec[i32](items(ahead)), vec[i32](items(behind))
+        for i, (v, size) in enumerate(zip(first.tolist(), sizes.tolist(), strict=True)):
             if i % FEW == 0:
                 ask()
-            name = bodies[i].name if name_of is None else name_of(i)
-            moving = MovingBody(bodies, i, name)
-            moving.begin(start)
-            moving.is_polygon, moving.enclosures = True, self.enclosures
+            moving = MovingBody(bodies, i, v, size)
+            moving.place, moving.since, moving.is_polygon = i, start, True
+            moving.enclosures = self.enclosures
             self.bodies.append(moving)
-            last: i64 = first + size - 1
-            for v in range(first, last + 1):
-                vertex = Vertex(VertexId(v), i, indices[v], moving)
-                vertex.ahead = VertexId(v + 1 if v < last else first)
-                vertex.behind = VertexId(v - 1 if v > first else last)
-                self.all.append(vertex)
-                moving.ring.append(vertex.id)
-            first = last + 1
+        indices = vec[i32](items(rows.indices.astype(np.int32)))
+        self.all = VertexList(self.bodies[:], vec[i32](items(owners)), indices)
         return self
 
     def add(self, body: Body, t: QQ) -> int:
@@ -164,11 +165,13 @@ class Vertices:
             new = VertexId(len(self.all))
             self._free.insert(0, new)
             self.all.append(unused(new))
+            self.next_ids, self.previous_ids = (
+                append(self.next_ids, -1),
+                append(self.previous_ids, -1),
+            )
             for value in UNUSED:
                 self.places = append(self.places, value)
         ring = [(self._free.pop(), index) for index in indices]
-        for v, _ in ring:
-            self.all[v] = unused(v)
         self._add([body], 0, ring, t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
@@ -179,6 +182,7 @@ class Vertices:
         Its vertices, which events may keep, and the unused ones in their places have its name.
         """
         self.changes += 1
+        self.bodies[i].place = -1
         for v in reversed(self.bodies[i].ring):
             removed, self.all[v] = self.all[v], unused(v)
             self.all[v].moving, self.all[v].index = removed.moving, removed.index
@@ -187,27 +191,33 @@ class Vertices:
         last = self.bodies.pop()
         if i < len(self.bodies):
             self.bodies[i] = last
-            for v in last.ring:
-                self.all[v].body = i
+            last.place = i
 
     def _add(
         self, bodies: Sequence[Body], k: int, ring: Sequence[tuple[VertexId, int]], t: QQ
     ) -> None:
         """Add body k of a sequence as the last one."""
         i, body = len(self.bodies), bodies[k]
-        moving = MovingBody(bodies, k, body.name)
+        moving = MovingBody(bodies, k)
+        moving.place, moving.ring = i, [v for v, _ in ring]
         moving.is_polygon = body.has_interior and not body.has_rings
         moving.enclosures = self.enclosures
         self.bodies.append(moving)
-        for vertex_id, index in ring:
-            vertex = self.all[vertex_id]
-            vertex.body, vertex.index, vertex.moving = i, index, moving
-            moving.ring.append(vertex_id)
+        for v, index in ring:
+            self.all[v] = Vertex(v, index, moving)
         for part in moving.rings:
             for behind, here in zip(part, [*part[1:], part[0]], strict=True):
-                self.all[behind].ahead = here
-                self.all[here].behind = behind
+                self.next_ids[behind] = i32(here)
+                self.previous_ids[here] = i32(behind)
         self.enter_piece(i, t)
+
+    def ahead(self, v: VertexId) -> VertexId:
+        """Return the next vertex on the ring of a vertex."""
+        return VertexId(i64(self.next_ids[v]))
+
+    def behind(self, v: VertexId) -> VertexId:
+        """Return the vertex before a vertex on its ring."""
+        return VertexId(i64(self.previous_ids[v]))
 
     @property
     def free(self) -> list[VertexId]:
@@ -273,10 +283,9 @@ class Vertices:
                 moving.until = moved.until
         horizon = INFINITY if moving.until is None else self.frame.time(moving.until)[1]
         for vertex_id in moving.ring:
-            self.all[vertex_id].horizon = horizon
-            self._set_place(vertex_id)
+            self._set_place(vertex_id, horizon)
 
-    def _set_place(self, v: VertexId) -> None:
+    def _set_place(self, v: VertexId, horizon: float = INFINITY) -> None:
         """Copy the trajectory of a vertex to `places`."""
         vertex, places, at = self.all[v], self.places, WIDTH * v
         image = vertex.image
@@ -284,7 +293,7 @@ class Vertices:
         places[at + 1] = image.y0
         places[at + 2] = image.x1
         places[at + 3] = image.y1
-        places[at + HORIZON] = vertex.horizon
+        places[at + HORIZON] = horizon
         is_linear = image.degree <= 1 and not image.ws and vertex.offset is None
         is_used = vertex.body >= 0
         places[at + MOTION] = float(image.motion) if is_linear and is_used else OTHER_MOTION

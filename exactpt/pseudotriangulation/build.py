@@ -15,7 +15,7 @@ from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId, half_edge_vec, vertex_vec
 from exactpt.kernel.budget import ask
-from exactpt.kernel.doubles import view
+from exactpt.kernel.doubles import items, view
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
 from exactpt.pseudotriangulation.stars import follow_stars
@@ -40,15 +40,15 @@ def build_mesh(
     Raises:
         AuditError: if a tile does not have three corners.
     """
-    vertices = instant.vertices.all
+    vertices = instant.vertices
     if mesh is None:
-        mesh = Mesh(len(vertices))
+        mesh = Mesh(len(vertices.all))
         diagonals = list(diagonals)
         is_free = all(d.region == FREE for d in diagonals)
         if (
-            len(vertices) >= MANY
+            len(vertices.all) >= MANY
             and is_free
-            and not any(body.is_tiled for body in instant.vertices.bodies)
+            and not any(body.is_tiled for body in vertices.bodies)
         ):
             _fill(instant, mesh, diagonals)
             _mark_angles(instant, mesh)
@@ -56,10 +56,10 @@ def build_mesh(
     _add_rings(instant, mesh)
     outside, inside = _add_diagonals(mesh, diagonals)
     link = mesh.map.link
-    for v in instant.vertices.ids():
+    for v in vertices.ids():
         # Counter-clockwise: the edge to the next vertex of the ring, the diagonals inside the
         # body, the edge to the vertex before, the diagonals in free space.
-        ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices[v].behind])
+        ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices.behind(v)])
         star = _sorted_star(instant, mesh, v, ahead, inside[v]) if v in inside else []
         star.append(behind)
         if v in outside:
@@ -76,22 +76,16 @@ def build_mesh(
 def _fill(instant: PredicatesAt, mesh: Mesh, diagonals: Sequence[Diagonal]) -> None:
     """Fill a mesh with the edges of all rings and with diagonals in free space, in numpy."""
     ring = instant.vertices.ids()
-    ahead = np.array([v.ahead for v in instant.vertices.all])
-    ids = np.array(ring)
+    ahead, ids = view(instant.vertices.next_ids).astype(np.int64), np.array(ring, np.int64)
     ends = np.array([(d.u, d.v) for d in diagonals], np.int64).reshape(-1, 2)
     origin = np.concatenate((np.stack((ids, ahead[ids]), axis=1), ends)).ravel()
-    region, boundary = np.full(len(origin), FREE), np.zeros(len(origin) // 2, np.bool_)
+    region, boundary = np.full(len(origin), FREE, np.uint8), np.zeros(len(origin) // 2, np.bool_)
     region[: 2 * len(ring) : 2], boundary[: len(ring)] = SOLID, True
-    of_rings = np.full(len(ahead), NO_HALF_EDGE)
+    of_rings = np.full(len(ahead), NO_HALF_EDGE, np.int64)
     of_rings[ids] = 2 * np.arange(len(ring))
-    origins: list[VertexId] = origin.tolist()
-    ring_edges: list[HalfEdge] = of_rings.tolist()
-    regions: list[u8] = region.tolist()
-    boundaries: list[bool] = boundary.tolist()
-    corners = [False] * len(origin)
-    mesh.region, mesh.boundary = vec[u8](regions), vec[bool](boundaries)
-    mesh.corner, mesh.ring_edge = vec[bool](corners), half_edge_vec(ring_edges)
-    mesh.map.origin = vertex_vec(origins)  # for the predicates of a star
+    mesh.region, mesh.boundary = vec[u8](items(region)), vec[bool](items(boundary))
+    mesh.ring_edge = half_edge_vec(items(of_rings))
+    mesh.map.origin = vertex_vec(items(origin))  # for the predicates of a star
 
     def sort(v: VertexId, reference: HalfEdge, star: list[HalfEdge]) -> list[HalfEdge]:
         return _sorted_star(instant, mesh, v, reference, star)
@@ -99,14 +93,14 @@ def _fill(instant: PredicatesAt, mesh: Mesh, diagonals: Sequence[Diagonal]) -> N
     following = follow_stars(instant, origin, ring, ahead, sort)
     previous = np.empty_like(following)
     previous[following] = np.arange(len(following))
-    mesh.map = PlanarMap.of(origins, following.tolist(), previous.tolist(), [])
+    mesh.map = PlanarMap.of(items(origin), items(following), items(previous), [])
 
 
 def _add_rings(instant: PredicatesAt, mesh: Mesh) -> None:
-    vertices = instant.vertices.all
-    for body in instant.vertices.bodies:
+    vertices = instant.vertices
+    for body in vertices.bodies:
         for v in body.ring:
-            mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
+            mesh.ring_edge[v] = mesh.add_edge(v, vertices.ahead(v), boundary=True)
             mesh.region[mesh.ring_edge[v]] = INSIDE if body.is_tiled else SOLID
 
 
@@ -180,8 +174,7 @@ def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     is_corner[~is_corner] = instant.signs_of(ids[~is_corner]) > 0
     flags = np.zeros(len(origin), np.bool_)
     flags[angles] = is_corner
-    corners: list[bool] = flags.tolist()
-    mesh.corner = vec[bool](corners)
+    mesh.corner = vec[bool](items(flags))
     seen = [False] * len(m.origin)
     for h in m.half_edges():
         if not seen[h] and mesh.region[h] != SOLID:

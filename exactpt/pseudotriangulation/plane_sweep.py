@@ -54,7 +54,7 @@ def body_edges(instant: PredicatesAt) -> list[SweptEdge]:
     for body in vertices.bodies:
         inside = INSIDE if body.is_tiled else SOLID
         for v in body.ring:
-            ahead = vertices.all[v].ahead
+            ahead = vertices.ahead(v)
             if instant.left_of(v, ahead):
                 edges.append(SweptEdge(v, ahead, inside))
             else:

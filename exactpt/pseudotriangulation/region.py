@@ -98,12 +98,12 @@ class Region:
         more = len(vertices.all) - len(mesh.ring_edge)
         mesh.ring_edge = extend(mesh.ring_edge, [NO_HALF_EDGE] * more)
         for v in moving.ring:
-            h = mesh.add_edge(v, vertices.all[v].ahead, boundary=True)
+            h = mesh.add_edge(v, vertices.ahead(v), boundary=True)
             mesh.ring_edge[v] = h
             mesh.region[h] = SOLID
             self._rim.append(twin(h))
         for v in moving.ring:
-            ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices.all[v].behind])
+            ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices.behind(v)])
             m.link(twin(behind), ahead)
             m.link(twin(ahead), behind)
 

@@ -9,7 +9,7 @@ from mypy_extensions import mypyc_attr
 
 from exactpt.certificates.moment import Moment
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertex import Vertex, VertexList
 from exactpt.tiling.events import Edges, TilingEvent
 from exactpt.tiling.tiling import Tiling
 
@@ -99,7 +99,7 @@ def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[Event]:
     ]
 
 
-def _vertices(every: list[Vertex], edges: Edges) -> _Ends:
+def _vertices(every: VertexList, edges: Edges) -> _Ends:
     return tuple([(every[u], every[v]) for u, v in edges])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from exactpt.certificates.certifier import X_ORDER
 from exactpt.geometry.predicates import side
+from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.vertices import MovingBody
@@ -93,6 +94,6 @@ def _locality(kinetic: Tiling) -> tuple[int, float]:
         if time is None or time.a < 0:  # no certificate: the end of a piece of motion
             continue
         ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
-        for body in {vertices.all[v].body for v in ids if v >= 0}:
+        for body in {vertices.all[VertexId(v)].body for v in ids if v >= 0}:
             counts[body] += 1
     return max(counts, default=0), sum(counts) / len(counts) if counts else 0.0

@@ -56,8 +56,8 @@ def _wrong_neighbour(
     The end itself if there is none.
     """
     a, b = line
-    vertex = instant.vertices.all[end]
-    for n in (vertex.ahead, vertex.behind):
+    vertices = instant.vertices
+    for n in (vertices.ahead(end), vertices.behind(end)):
         s = side * instant.sign(a, b, n)
         if s < 0 or (s == 0 and instant.nearer(other, n, end)):
             return n

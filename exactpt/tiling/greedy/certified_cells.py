@@ -107,9 +107,9 @@ class CertifiedCells:
     def extreme_pair(self, handle: int) -> Ends:
         """Return an extreme vertex and its neighbour on the ring, in their certified x-order."""
         arc = handle >> 1
-        vertex = self._certified.vertices.all[self.now.vertex[arc]]
-        neighbour = vertex.behind if handle % 2 else vertex.ahead
-        return (vertex.id, neighbour) if arc % 2 == 0 else (neighbour, vertex.id)
+        vertices, v = self._certified.vertices, self.now.vertex[arc]
+        neighbour = vertices.behind(v) if handle % 2 else vertices.ahead(v)
+        return (v, neighbour) if arc % 2 == 0 else (neighbour, v)
 
     def enter(self, i: int) -> None:
         """Insert a new body into the decomposition."""

@@ -62,7 +62,7 @@ class FlippingRules(Rules):
             return
         after = PredicatesAt(vertices, instant.time)
         for v in deforming:
-            ahead, behind = vertices.all[v].ahead, vertices.all[v].behind
+            ahead, behind = vertices.ahead(v), vertices.behind(v)
             if instant.sign(ahead, v, behind) <= 0 < after.sign(ahead, v, behind):
                 for h in mesh.map.star(mesh.ring_edge[v]):
                     visits = shadow(mesh, h, after) if mesh.is_flippable(h) else None

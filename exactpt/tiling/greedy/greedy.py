@@ -176,8 +176,8 @@ class VerticalRules(Rules):
 
     def _move_extreme(self, handle: int) -> None:
         arc = handle >> 1
-        vertex = self.certified.vertices.all[self.cells.now.vertex[arc]]
-        self.cells.now.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
+        vertices, v = self.certified.vertices, self.cells.now.vertex[arc]
+        self.cells.now.vertex[arc] = vertices.behind(v) if handle % 2 else vertices.ahead(v)
         self.log.stats.count("internal")
         self.cells.certify_extreme(2 * arc)
         self.cells.certify_extreme(2 * arc + 1)

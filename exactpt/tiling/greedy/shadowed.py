@@ -84,10 +84,11 @@ class ShadowRules(FlippingRules):
 
     def _certify_turn(self, v: VertexId) -> None:
         """Certify that a vertex of a deforming polygon stays reflex, if it is reflex."""
-        vertex, certifier = self.certified.vertices.all[v], self.certified.certifier
+        vertices, certifier = self.certified.vertices, self.certified.certifier
+        ahead, behind = vertices.ahead(v), vertices.behind(v)
         time = None
-        if not certifier.rigid(vertex.ahead, v, vertex.behind):
-            s, zero = certifier.orientation(vertex.ahead, v, vertex.behind)
+        if not certifier.rigid(ahead, v, behind):
+            s, zero = certifier.orientation(ahead, v, behind)
             time = zero if s > 0 else None
         self.certified.table.schedule(pack(TURN, v), time)
 

@@ -87,7 +87,7 @@ class Forest:
 
     def body(self, node: int) -> int:
         """Return the number of the body to which a node belongs."""
-        return self.vertices.all[node >> 1].body
+        return self.vertices.all[VertexId(node >> 1)].body
 
     def bot(self, label: Label) -> int:
         """Return the deepest node of a label."""

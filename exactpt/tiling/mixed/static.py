@@ -25,7 +25,7 @@ def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
     forest = Forest(vertices)
     by_ends = _geodesic_labels(instant, forest)
     swept = Sweep(instant, _f2_edges(instant, forest, by_ends)).run()
-    boundary = {(u, vertices.all[u].ahead) for u in vertices.ids()}
+    boundary = {(u, vertices.ahead(u)) for u in vertices.ids()}
     bridges = [
         Diagonal(u, v, FREE)
         for u, v in by_ends

@@ -8,7 +8,7 @@ import pytest
 from exactpt.certificates import coefficients
 from exactpt.certificates.certifier import Certifier
 from exactpt.kernel.rounding import INFINITY
-from exactpt.motion.vertices import MOTION, OTHER_MOTION, WIDTH, Vertices
+from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 from exactpt.scene.generate import FAMILIES, generate
 
 
@@ -28,7 +28,9 @@ def check_places(vertices):
             continue
         count += 1
         coefficients = [image.x0, image.y0, image.x1, image.y1]
-        expected = [*coefficients, vertex.horizon, float(image.motion)]
+        until = vertex.moving.until
+        horizon = INFINITY if until is None else vertices.frame.time(until)[1]
+        expected = [*coefficients, horizon, float(image.motion)]
         assert [str(value) for value in place] == [str(value) for value in expected]
     return count
 
@@ -76,7 +78,7 @@ def test_answers_by_places_equal_those_by_images(family):
         if min(a, b, c) != a:
             continue
         va, vb, vc = (vertices.all[v] for v in (a, b, c))
-        horizon = min(certifier._end_high, va.horizon, vb.horizon, vc.horizon)
+        horizon = min(certifier._end_high, *(place_of(vertices, v)[HORIZON] for v in (a, b, c)))
         now = certifier.now_low, certifier.now_high
         if not (va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc)):
             images = va.image, vb.image, vc.image
@@ -86,7 +88,7 @@ def test_answers_by_places_equal_those_by_images(family):
             known = (s, low, high) if low <= horizon else (s, INFINITY, INFINITY)
             assert certifier.filtered_orientation(a, b, c) == known
         if not va.is_copy_of(vb):
-            horizon = min(certifier._end_high, va.horizon, vb.horizon)
+            horizon = min(certifier._end_high, *(place_of(vertices, v)[HORIZON] for v in (a, b)))
             s, low, high = coefficients.x_difference(
                 va.image, vb.image, certifier.errors, *now, horizon, at_root=False
             )

@@ -55,7 +55,7 @@ def test_determinants_of_tracks(a, b, c, d):
 
 def body_with(track):
     """A body whose vertex 0 has this trajectory."""
-    moving = MovingBody([Body("point", [(0, 0)])], 0, "point")
+    moving = MovingBody([Body("point", [(0, 0)])], 0)
     moving.piece._made[0] = track
     return moving
 
@@ -63,8 +63,9 @@ def body_with(track):
 @pytest.mark.long
 @given(a=tracks, c=tracks, offsets=st.tuples(*[polynomials] * 4))
 def test_the_orientation_of_copies(a, c, offsets):
-    copies = [Vertex(i, 0, 0, body_with(a)) for i in (0, 1)]
-    other = Vertex(2, 1, 0, body_with(c))
+    moving = body_with(a)
+    copies = [Vertex(i, 0, moving) for i in (0, 1)]
+    other = Vertex(2, 0, body_with(c))
     copies[0].offset, copies[1].offset = offsets[:2], offsets[2:]
     turned = subtract(offsets[2], offsets[0]), subtract(offsets[3], offsets[1])
     expected = cross_of(turned, towards(a, c))

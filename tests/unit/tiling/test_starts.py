@@ -13,6 +13,7 @@ from exactpt import Body, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion import vertices as moving_vertices
 from exactpt.motion.linear_rows import linear_rows
+from exactpt.motion.vertices import HORIZON, WIDTH
 from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.pseudotriangulation import build, stars
 from exactpt.scene.generate import FAMILIES, generate
@@ -37,7 +38,9 @@ def state_after_start(scene, tiling):
     return (
         [end for _, t in pending for end in (t.low, t.high)],
         (
-            [(v.body, v.index, v.ahead, v.behind, v.horizon, v.name) for v in vertices.all],
+            [(v.id, v.body, v.index, v.name) for v in vertices.all],
+            list(vertices.places)[HORIZON::WIDTH],
+            [(vertices.ahead(v), vertices.behind(v)) for v in vertices.ids()],
             [(m.ring, m.until, m.deforms, m.is_tiled, m.is_polygon) for m in vertices.bodies],
             kinetic.state(),
             kinetic.vertices.enclosures.errors,

@@ -28,11 +28,11 @@ def nearest_edge(instant, v, *, up):
     for u in instant.vertices.all:
         if u.body == instant.vertices.all[v].body:
             continue
-        p, q = instant.position(u.id), instant.position(u.ahead)
+        p, q = instant.position(u.id), instant.position(instant.vertices.ahead(u.id))
         if (p[0] < x < q[0]) or (q[0] < x < p[0]):
             distance = (height_over(p, q, x) - y) * (1 if up else -1)
             if distance > 0 and (best is None or distance < best[0]):
-                best = distance, frozenset((u.id, u.ahead))
+                best = distance, frozenset((u.id, instant.vertices.ahead(u.id)))
     return best and best[1]
 
 
