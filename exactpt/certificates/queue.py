@@ -14,8 +14,8 @@ from librt.vecs import append, vec
 from mypy_extensions import i32, i64, mypyc_attr
 
 from exactpt.certificates.calendar import Calendar
-from exactpt.certificates.certificate import KIND_COUNT
-from exactpt.indices import CertificateId
+from exactpt.certificates.certificate import ANGLE, KIND_COUNT
+from exactpt.indices import CertificateId, HalfEdge, Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Floats, Indices, items
@@ -76,12 +76,23 @@ class Resolver(Protocol):
         ...
 
 
+class Angles:
+    """What knows the function of each certificate of an angle; the queue keeps none of these."""
+
+    def function(self, h: HalfEdge) -> Triple:
+        """Return the three vertices of the angle of a half-edge, the least one first."""
+        raise NotImplementedError
+
+
 class EventQueue(Calendar):
     """A queue of event times with at most one pending event per slot.
 
     An event is an enclosure in the calendar, and the three numbers of its function. Its
     `EventTime` is kept only if it has an exact number, or no change of sign; otherwise it is
     made when it is needed.
+
+    Attributes:
+        angles: what knows the functions of angles; with None, their numbers are kept too.
     """
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
@@ -90,6 +101,7 @@ class EventQueue(Calendar):
         self._counters: Counters = counters
         self._keys: vec[vec[i32]] = vec[vec[i32]]([vec[i32]() for _ in range(KIND_COUNT)])
         self._kept: dict[CertificateId, EventTime] = {}
+        self.angles: Angles | None = None
 
     def __len__(self) -> int:
         return int(self._count)
@@ -108,33 +120,29 @@ class EventQueue(Calendar):
         if self._kept:
             self._kept.pop(slot, None)
         row, at = slot % KIND_COUNT, 3 * (slot // KIND_COUNT)
-        key = self._keys[row]
-        if at >= len(key):
-            key = _extended(key, at + 3 * (at // 12) + 3)
-            self._keys[row] = key
-        key[at] = i32(a)
-        key[at + 1] = i32(b)
-        key[at + 2] = i32(c)
+        if row != ANGLE or self.angles is None:
+            key = self._keys[row]
+            if at >= len(key):
+                key = _extended(key, at + 3 * (at // 12) + 3)
+                self._keys[row] = key
+            key[at] = i32(a)
+            key[at + 1] = i32(b)
+            key[at + 2] = i32(c)
         self._put(slot, low, high)
 
-    def schedule_new(
-        self, kind: int, parts: Indices, lows: Floats, highs: Floats, ids: Indices
-    ) -> None:
-        """Put many changes of sign into slots of one kind, none of which is pending.
+    def schedule_angles(self, parts: Indices, lows: Floats, highs: Floats) -> None:
+        """Put changes of sign of angles into their slots; none is pending, and `angles` is set.
 
         Args:
-            kind: the kind of the certificates.
-            parts: their parts, in increasing order.
+            parts: the half-edges, in increasing order.
             lows: the lower ends of the enclosures, less than infinity.
             highs: the upper ends.
-            ids: shape (n, 3), the numbers of their functions.
         """
         if not len(parts):
             return
-        n = int(parts[-1]) + 1
-        spans, keys = np.full((n, 2), INFINITY), np.zeros((n, 3), np.int32)
-        spans[parts, 0], spans[parts, 1], keys[parts] = lows, highs, ids
-        self._spans[kind], self._keys[kind] = vec[float](items(spans)), vec[i32](items(keys))
+        spans = np.full((int(parts[-1]) + 1, 2), INFINITY)
+        spans[parts, 0], spans[parts, 1] = lows, highs
+        self._spans[ANGLE] = vec[float](items(spans))
         self._count += len(parts)
         self._heap_size = 0  # its slots may be beyond the new rows; the calendar has all events
         self._make_calendar()
@@ -160,9 +168,12 @@ class EventQueue(Calendar):
             if kept is not None:
                 return kept
         row, part = slot % KIND_COUNT, slot // KIND_COUNT
-        span, key, at = self._spans[row], self._keys[row], 3 * part
-        a, b, c = i64(key[at]), i64(key[at + 1]), i64(key[at + 2])
-        return EventTime(span[2 * part], span[2 * part + 1], a, b, c)
+        low, high, at = self._spans[row][2 * part], self._spans[row][2 * part + 1], 3 * part
+        if row == ANGLE and self.angles is not None:
+            u, v, w = self.angles.function(HalfEdge(part))
+            return EventTime(low, high, u, v, w)
+        key = self._keys[row]
+        return EventTime(low, high, i64(key[at]), i64(key[at + 1]), i64(key[at + 2]))
 
     def slots(self) -> list[CertificateId]:
         """Return all slots with a pending event, in increasing order."""

@@ -15,8 +15,9 @@ from librt.vecs import vec
 from mypy_extensions import i64, mypyc_attr
 
 from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
-from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.certifier import Certifier, least_first
 from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.queue import Angles
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, Triple, VertexId, half_edge_vec
 from exactpt.kernel.budget import ask
@@ -55,7 +56,7 @@ class Followers:
 
 
 @final
-class CertifiedMesh:
+class CertifiedMesh(Angles):
     """A mesh just after the current time, with a certificate for each angle that can fail.
 
     Attributes:
@@ -76,6 +77,7 @@ class CertifiedMesh:
         self.vertices: Vertices = vertices
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
+        table.pending.angles = self
         self.batch: Batch = Batch()
         self.checks_rigid: bool = False
         self._after: OneSided = OneSided(certifier, before=False)
@@ -130,7 +132,7 @@ class CertifiedMesh:
         is_known, holds = signs != 0, (signs > 0) == corner
         table.angles.update(h[is_known & ~holds].tolist())
         fails = is_known & holds & (lows < INFINITY)
-        table.pending.schedule_new(ANGLE, h[fails], lows[fails], highs[fails], ids[fails])
+        table.pending.schedule_angles(h[fails], lows[fails], highs[fails])
         left: list[HalfEdge] = h[~is_known].tolist()
         return left
 
@@ -271,6 +273,11 @@ class CertifiedMesh:
         """Return the three vertices of the angle of h, its apex in the middle."""
         m = self.mesh.map
         return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
+
+    def function(self, h: HalfEdge) -> Triple:
+        """See `Angles.function`."""
+        a, p, b = self.angle(h)
+        return least_first(a, p, b)
 
     def vertices_of(self, h: HalfEdge) -> tuple[Vertex, Vertex, Vertex]:
         """Return the three moving vertices of the angle of h, its apex in the middle."""

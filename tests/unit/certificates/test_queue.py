@@ -276,7 +276,7 @@ def test_bug_a_row_of_many_new_events_is_shorter_than_the_old_one():
     assert queue.first_alone(9.0) == KIND_COUNT * 100  # it is in the heap now
     queue.cancel(KIND_COUNT * 100)
 
-    queue.schedule_new(0, np.array([2]), np.array([2.0]), np.array([3.0]), np.array([[4, -1, -1]]))
+    queue.schedule_angles(np.array([2]), np.array([2.0]), np.array([3.0]))
 
     assert queue.slots() == [KIND_COUNT * 2]
     assert queue.first_alone(9.0) == KIND_COUNT * 2
