@@ -139,9 +139,8 @@ class Driver:
         """
         scene = self._scene()
         start = scene._start
-        near = None
-        if isinstance(tiling, TilingPlan) and not exact_only:
-            near = near_pairs(tiling.vertices, start)
+        plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
+        near = None if exact_only else near_pairs(plan.vertices, start)
         touches, overlaps = initial_touches(scene, near)
         if overlaps:
             self.touches, self.overlaps = touches, overlaps
@@ -151,7 +150,6 @@ class Driver:
         self.since = start
         try:
             with collector_at_rest():  # in one piece: at its end all that is new is visited once
-                plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
                 self.tiling = plan.start(start, exact_only=exact_only)
         except BudgetExceeded as spent:
             spent.reached = scene.start

@@ -70,41 +70,21 @@ class Bitangent:
 
     Attributes:
         a, b: its left and its right vertex.
-        key: -slope, rounded down: monotone, but equal for slopes that are close.
-        cell: the cell of the sweep in which it was found.
-        left, right: the arcs at the ends of that cell when it was found.
+        key: its `PredicatesAt.descent`: monotone, but equal for slopes that are close.
+        number: the number of bitangents found before it.
     """
 
-    __slots__ = (
-        "_instant",
-        "_known_slope",
-        "_sides",
-        "a",
-        "b",
-        "cell",
-        "key",
-        "left",
-        "number",
-        "right",
-    )
+    __slots__ = ("_instant", "_known_slope", "_sides", "a", "b", "key", "number")
 
     def __init__(
-        self,
-        instant: PredicatesAt,
-        ends: Ends,
-        sides: tuple[int, int],
-        cell: int,
-        arcs: tuple[int, int],
-        number: int,
+        self, instant: PredicatesAt, ends: Ends, sides: tuple[int, int], key: float, number: int
     ) -> None:
         self.a, self.b = ends
-        self.cell = cell
-        self.left, self.right = arcs
         self.number = number
         self._instant = instant
         self._sides = sides
         self._known_slope: Slope | None = None
-        self.key: float = instant.descent(self.a, self.b)
+        self.key: float = key
 
     def __lt__(self, other: Bitangent) -> bool:
         """Return True if the sweep meets it first, for bitangents with equal keys: a total order.

@@ -11,9 +11,9 @@ were derived for exactpt and are checked against the definition in the tests.
 
 from __future__ import annotations
 
-import heapq
 from typing import Final, final
 
+from librt.vecs import append, vec
 from mypy_extensions import i64
 
 from exactpt.certificates.at_time import PredicatesAt
@@ -31,6 +31,9 @@ FEW: Final = 16
 """Number of bitangents from one look at the budget to the next."""
 MANY: Final = 48
 """Number of vertices of two bodies from which on their bitangent is searched by bisection."""
+
+WIDTH: Final[i64] = 5
+"""Number of integers of a bitangent in the rows of a sweep."""
 
 
 def greedy_diagonals(
@@ -61,12 +64,21 @@ def greedy_diagonals(
 
 @final
 class _Sweep:
+    """The sweep over a decomposition; bitangents are rows of numbers, the next one on a heap.
+
+    Two are compared as objects only if their keys are equal.
+    """
+
     def __init__(self, instant: PredicatesAt, cells: VerticalDecomposition) -> None:
         self.instant = instant
         self.cells = cells
-        self.dead: list[bool] = [False] * len(cells.left)
-        self.heap: list[tuple[float, Bitangent]] = []
-        self.pushed = 0
+        self.dead: vec[bool] = vec[bool]([False] * len(cells.left))
+        # Of each bitangent: its ends, the cell in which it was found, and the arcs of that cell.
+        self._rows: vec[i64] = vec[i64]()
+        self._made: dict[i64, Bitangent] = {}
+        self._heap_key: vec[float] = vec[float]()
+        self._heap: vec[i64] = vec[i64]()
+        self._heap_size: i64 = 0
         self.tied: set[Ends] = set()
         self._chains: dict[int, tuple[Chain, Chain]] = {}
         sizes = [len(body.ring) for body in instant.vertices.bodies]
@@ -74,35 +86,89 @@ class _Sweep:
 
     def run(self) -> list[Diagonal]:
         found: list[Diagonal] = []
-        for cell in range(len(self.cells.left)):
+        cells = self.cells
+        for cell in range(len(cells.left)):
             self._push(cell)
-        previous: Bitangent | None = None
+        previous: i64 = -1
+        previous_key = 0.0
         on_line: dict[QQ, Diagonal] = {}  # of the bitangents parallel to the previous one
         popped: i64 = 0
-        while self.heap:
+        while self._heap_size:
             if popped % FEW == 0:
                 ask()
             popped += 1
-            _, s = heapq.heappop(self.heap)
-            cells = self.cells
+            key, number = self._heap_key[0], self._heap[0]
+            self._pop()
+            rows, at = self._rows, WIDTH * number
+            cell, x, y = rows[at + 2], rows[at + 3], rows[at + 4]
             if (
-                self.dead[s.cell]
-                or cells.left[s.cell] != s.left
-                or cells.right[s.cell] != s.right
-                or not self._is_ready(s.cell)
+                self.dead[cell]
+                or cells.left[cell] != x
+                or cells.right[cell] != y
+                or not self._is_ready(cell)
             ):
                 continue
-            found.append(Diagonal(s.a, s.b))
-            if previous is not None and previous.is_parallel(s):
-                on_line.setdefault(previous.offset(), found[-2])
-                other = on_line.setdefault(s.offset(), found[-1])
+            found.append(Diagonal(VertexId(rows[at]), VertexId(rows[at + 1])))
+            if previous >= 0 and key == previous_key and self._are_parallel(previous, number, key):
+                on_line.setdefault(self._bitangent(previous, key).offset(), found[-2])
+                other = on_line.setdefault(self._bitangent(number, key).offset(), found[-1])
                 if other is not found[-1]:
                     self.tied |= {edge_key(d.u, d.v) for d in (other, found[-1])}
             else:
                 on_line.clear()
-            previous = s
-            self._pass(s.cell, s.left, s.right)
+            previous, previous_key = number, key
+            self._pass(cell, x, y)
         return found
+
+    def _are_parallel(self, s: i64, t: i64, key: float) -> bool:
+        """Return True if two bitangents with one key are parallel at the instant."""
+        return self._bitangent(s, key).is_parallel(self._bitangent(t, key))
+
+    def _bitangent(self, number: i64, key: float) -> Bitangent:
+        """Return a bitangent as an object."""
+        made = self._made.get(number)
+        if made is None:
+            rows, at = self._rows, WIDTH * number
+            ends = VertexId(rows[at]), VertexId(rows[at + 1])
+            sides = _sides(rows[at + 3], rows[at + 4])
+            made = self._made[number] = Bitangent(self.instant, ends, sides, key, number)
+        return made
+
+    # The heap: the comparisons are those of ``heapq``, so that counts of decisions are too.
+
+    def _is_before(self, key: float, s: i64, other_key: float, t: i64) -> bool:
+        """Return True if the sweep meets bitangent s before t."""
+        if key != other_key:
+            return key < other_key
+        return self._bitangent(s, key) < self._bitangent(t, key)
+
+    def _rise(self, key: float, number: i64, n: i64) -> None:
+        """Put a bitangent into place n of the heap, or above."""
+        keys, heap = self._heap_key, self._heap
+        while n > 0:
+            up = (n - 1) >> 1
+            if not self._is_before(key, number, keys[up], heap[up]):
+                break
+            keys[n], heap[n] = keys[up], heap[up]
+            n = up
+        keys[n], heap[n] = key, number
+
+    def _pop(self) -> None:
+        """Remove the first bitangent from the heap."""
+        keys, heap, n = self._heap_key, self._heap, self._heap_size - 1
+        self._heap_size = n
+        key, number = keys[n], heap[n]
+        i: i64 = 0
+        j: i64 = 1
+        while j < n:
+            right = j + 1
+            if right < n and not self._is_before(keys[j], heap[j], keys[right], heap[right]):
+                j = right
+            keys[i], heap[i] = keys[j], heap[j]
+            i = j
+            j = 2 * i + 1
+        if n > 0:
+            self._rise(key, number, i)
 
     def _is_ready(self, cell: int) -> bool:
         """Return True if only its two arcs bound the cell, so that it ends at their bitangent."""
@@ -118,15 +184,18 @@ class _Sweep:
         if cell == NO_CELL or self.dead[cell] or not self._is_ready(cell):
             return
         x, y = self.cells.left[cell], self.cells.right[cell]
-        # The line passes a left arc with the body on its right, a right arc on its left.
-        sides = (-1 if x % 2 == 0 else 1, -1 if y % 2 == 0 else 1)
-        a, b = self._near_tangent(x, y, *sides)
-        ends = tangent_pair(self.instant, a, b, *sides)
-        if not self.instant.left_of(*ends):
+        side_x, side_y = _sides(x, y)
+        a, b = self._near_tangent(x, y, side_x, side_y)
+        a, b = tangent_pair(self.instant, a, b, side_x, side_y)
+        if not self.instant.left_of(a, b):
             return
-        self.pushed += 1
-        s = Bitangent(self.instant, ends, sides, cell, (x, y), self.pushed)
-        heapq.heappush(self.heap, (s.key, s))
+        key, number, n = self.instant.descent(a, b), len(self._rows) // WIDTH, self._heap_size
+        self._rows = append(append(append(self._rows, a), b), cell)
+        self._rows = append(append(self._rows, x), y)
+        if n == len(self._heap):
+            self._heap_key, self._heap = append(self._heap_key, key), append(self._heap, number)
+        self._heap_size = n + 1
+        self._rise(key, number, n)
 
     def _near_tangent(self, x: int, y: int, side_x: int, side_y: int) -> Ends:
         """Return vertices of the bodies of two arcs from which `tangent_pair` is not far.
@@ -181,3 +250,11 @@ class _Sweep:
             c.right[above] = x
         for touched in (new_left, new_right, below, above):
             self._push(touched)
+
+
+def _sides(x: i64, y: i64) -> tuple[int, int]:
+    """Return the sides of the bitangent of a left and a right arc, see `tangent_pair`.
+
+    The line passes a left arc with the body on its right, a right arc on its left.
+    """
+    return (-1 if x % 2 == 0 else 1), (-1 if y % 2 == 0 else 1)
