@@ -2,7 +2,8 @@
 
 Each run has a process of its own, whose memory is measured before and after each step. Events are
 those that ``for event in Simulation.run()`` sees; then the next ones are processed many at a time.
-Times are processor times.
+Contacts are those of a second run, in which bodies bounce: from the first one on, at which bodies
+are made. Times are processor times.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ import numpy as np
 from benchmarks.output import Output, Row
 from benchmarks.timing import per_event, resident
 from exactpt.collision.driver import NOTHING, Driver
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 
 __all__ = ["FULL", "QUICK", "Sizes", "crowd", "figures", "run"]
@@ -31,6 +34,8 @@ CELL: Final = 1000.0
 RADIUS: Final = 5.0
 SPEED: Final = 1000
 END: Final = 100
+MOST: Final = 100_000
+"""Number of bodies up to which they bounce."""
 TILINGS: Final = ("lazy", "greedy")
 
 
@@ -40,14 +45,16 @@ class Sizes(NamedTuple):
     Attributes:
         bodies: numbers of bodies.
         events: number of events seen one by one, and of event times processed at once after them.
+        contacts: number of contacts that are timed.
     """
 
     bodies: Sequence[int]
     events: int
+    contacts: int
 
 
-QUICK: Final = Sizes((100,), 50)
-FULL: Final = Sizes((1000, 10_000, 100_000, 1_000_000), 50_000)
+QUICK: Final = Sizes((100,), 50, 5)
+FULL: Final = Sizes((1000, 10_000, 100_000, 1_000_000), 50_000, 200)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
@@ -56,7 +63,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     for bodies in sizes.bodies:
         for tiling in TILINGS:
             output.progress(f"{bodies} bodies, {tiling}")
-            words = [tiling, *map(str, (bodies, sizes.events, seed))]
+            words = [tiling, *map(str, (bodies, sizes.events, sizes.contacts, seed))]
             command = [sys.executable, "-m", "benchmarks.large", *words]
             told = subprocess.run(command, check=True, capture_output=True, text=True).stdout
             rows.append(json.loads(told))
@@ -80,7 +87,7 @@ def crowd(bodies: int, seed: int) -> Scene:
     return Scene.from_arrays(centers[owner] + ring, offsets, velocities=velocities, time=(0, END))
 
 
-def figures(tiling: str, bodies: int, events: int, seed: int) -> Row:
+def figures(tiling: str, bodies: int, events: int, contacts: int, seed: int) -> Row:
     """The figures of one run, in this process."""
     Simulation(crowd(9, 0), tiling=tiling)  # imports on first use are not measured
     empty = resident()
@@ -101,6 +108,8 @@ def figures(tiling: str, bodies: int, events: int, seed: int) -> Row:
         while many < events and driver.advance(scene._end, NOTHING) is not None:
             many = kinetic.stats.total - total
         many = kinetic.stats.total - total
+    at_once = process_time() - before
+    del simulation, kinetic
     return {
         "bodies": bodies,
         "tiling": tiling,
@@ -111,8 +120,23 @@ def figures(tiling: str, bodies: int, events: int, seed: int) -> Row:
         "events seen": seen,
         "us an event, seen": per_event(one_by_one, seen),
         "events at once": many,
-        "us an event, at once": per_event(process_time() - before, many),
+        "us an event, at once": per_event(at_once, many),
+        "contacts a second": rate(scene, tiling, contacts) if bodies <= MOST else None,
     }
+
+
+def rate(scene: Scene, tiling: str, contacts: int) -> float | None:
+    """Contacts a second of bodies that bounce, from the first one on; None without a second."""
+    bounce, clock = Bounce(), list[float]()
+
+    def respond(simulation: Simulation, contact: Contact) -> None:
+        bounce(simulation, contact)
+        clock.append(process_time())
+
+    for _ in Simulation(scene, tiling=tiling).run(on_contact=respond):
+        if len(clock) > contacts:
+            break
+    return (len(clock) - 1) / (clock[-1] - clock[0]) if len(clock) > 1 else None
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.shapes import crowd
-from exactpt import Body, Scene, Simulation, Translation
+from exactpt import Body, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion import vertices as moving_vertices
 from exactpt.motion.linear_rows import linear_rows
@@ -203,6 +203,14 @@ def test_starts_from_arrays_make_no_bodies(seed, tiling):
         [event.to_json() for event in Simulation(s, tiling=tiling).run()] for s in (scene, arrays)
     ]
     assert runs[0] == runs[1]
+    arrays = arrays_of(scene.bodies, (scene.start, scene.end))
+    contacts = [first_contact(s, method="kinetic", tiling=tiling) for s in (scene, arrays)]
+    assert len(arrays.bodies._made) < 20  # those of exact decisions up to the contact too
+    assert contacts[0] is not None
+    assert contacts[0].time == contacts[1].time
+    assert [(p.body, p.other) for p in contacts[0].pairs] == [
+        (p.body, p.other) for p in contacts[1].pairs
+    ]
 
 
 @pytest.mark.long
