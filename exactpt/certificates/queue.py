@@ -77,7 +77,7 @@ class Resolver(Protocol):
 
 
 class Angles:
-    """What knows the function of each certificate of an angle; the queue keeps none of these."""
+    """The functions of the certificates of angles, of which the queue stores none."""
 
     def function(self, h: HalfEdge) -> Triple:
         """Return the three vertices of the angle of a half-edge, the least one first."""
@@ -92,7 +92,7 @@ class EventQueue(Calendar):
     made when it is needed.
 
     Attributes:
-        angles: what knows the functions of angles; with None, their numbers are kept too.
+        angles: the functions of angles; with None, their numbers are stored too.
     """
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:

@@ -89,7 +89,7 @@ def view(vector: Any) -> NDArray[Any]:  # noqa: ANN401 - its type is that of no 
     return np.asarray(memoryview(vector))
 
 
-def items(array: NDArray[Any]) -> Any:  # noqa: ANN401 - what a vector of librt accepts
+def items(array: NDArray[Any]) -> Any:  # noqa: ANN401 - argument of a vector of librt
     """Return the items of an array in memory order, of which a vector makes no objects."""
     return np.ascontiguousarray(array).reshape(-1).data
 

@@ -72,8 +72,8 @@ class Vertices:
         places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`; the
             horizon, a double at least ``until`` of the body, normalised, infinite if that is None;
             the number of the motion. The latter is `OTHER_MOTION` unless the vertex is in linear
-            translation, without infinitesimal copies; the other coefficients of `Image` are then
-            0. An addition of a body may move the vector.
+            translation, without infinitesimal copies, and so without other coefficients than
+            these. An addition of a body may move the vector.
         next_ids, previous_ids: of each id, those of its neighbours on its ring, -1 if unused; an
             addition of a body may move these vectors too.
         changes: how often trajectories have changed, or bodies been added or removed.

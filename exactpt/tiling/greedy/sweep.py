@@ -137,7 +137,7 @@ class _Sweep:
     # The heap: the comparisons are those of ``heapq``, so that counts of decisions are too.
 
     def _is_before(self, key: float, s: i64, other_key: float, t: i64) -> bool:
-        """Return True if the sweep meets bitangent s before t."""
+        """Return True if the sweep reaches bitangent s before t."""
         if key != other_key:
             return key < other_key
         return self._bitangent(s, key) < self._bitangent(t, key)
