@@ -45,5 +45,6 @@ def test_events_of_a_hundred_thousand_bodies():
 
     assert kinetic.stats.total >= 20_000
     assert kinetic.stats.rebuilds == 0
+    made = len(scene.bodies._made)
     audit_at(kinetic, next(kinetic.clock.times_just_after()))
-    assert len(scene.bodies._made) < 1000  # those of exact decisions
+    assert made < 1000  # those of exact decisions; the audit makes all
