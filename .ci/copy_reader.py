@@ -3,6 +3,7 @@
     python .ci/copy_reader.py          rewrites the part between two markers
 
 Both checkers stand alone, so one of them has a copy. A test compares it with what this returns.
+Lines that end with "# own" are not copied.
 """
 
 from __future__ import annotations
@@ -14,74 +15,17 @@ from pathlib import Path
 PACKAGE = Path(__file__).parent.parent / "exactpt"
 SOURCE, TARGET = PACKAGE / "proof_check.py", PACKAGE / "check_apart.py"
 BEGIN, END = "# ---- Copied from proof_check.py, by .ci/copy_reader.py.", "# ---- End of the copy."
-NAMES = [
-    "Point",
-    "Dart",
-    "Json",
-    "Entry",
-    "Triple",
-    "Track",
-    "Turn",
-    "Whole",
-    "Bounds",
-    "NUMBER",
-    "MOST_BITS",
-    "MOST_DEGREE",
-    "SAMPLES",
-    "NoProofError",
-    "Rejected",
-    "Exhausted",
-    "Work",
-    "WORK",
-    "require",
-    "words",
-    "most_words",
-    "Poly",
-    "vector_of",
-    "dot_of",
-    "whole",
-    "turn",
-    "side",
-    "meet",
-    "is_simple",
-    "surrounds",
-    "Bare",
-    "need",
-    "number",
-    "keys",
-    "check_json",
-    "entries",
-    "polynomial",
-    "degree",
-    "Motion",
-    "c_",
-    "Body",
-    "line",
-    "point",
-    "vertex",
-    "keyframes",
-    "turns_by",
-    "turns_in",
-    "largest_gap",
-    "bits_for",
-    "follows",
-    "is_near",
-    "angle_of",
-    "pi_bounds",
-    "arctan",
-    "series",
-    "Scene",
-    "MOST_DIGITS",
-    "MOST_BYTES",
-    "is_rational",
-    "read",
-    "file_bytes",
-    "say",
-]
+NAMES = """
+Point Dart Json Entry Triple Track Whole ONE Poses NUMBER MOST_BITS MOST_DEGREE NoProofError
+Rejected Exhausted Work WORK require words most_words Poly vector_of dot_of values turn meet
+are_same is_simple surrounds Bare need number keys entries check_json polynomial degree Motion
+cleared Body point vertex keyframes spin_of path_of Scene MOST_DIGITS MOST_BYTES is_rational
+read file_bytes say
+""".split()  # noqa: SIM905
 METHODS = {  # of classes that are not copied whole
-    "Poly": "__new__ __add__ __sub__ __mul__ scaled value along derivative bound",
+    "Poly": "__new__ __add__ __sub__ __mul__",
     "Body": "__init__ read_motion coordinates places check_simple track",
-    "Scene": "__init__ read of track at",
+    "Scene": "__init__ read of track place",
 }
 WIDTH = 118
 COMPOUND = re.compile(r"\s*(@|(if|for|while|def|class|with|try|except|else|elif|finally)\b)")
@@ -90,6 +34,7 @@ COMPOUND = re.compile(r"\s*(@|(if|for|while|def|class|with|try|except|else|elif|
 def reader(source: str, *, is_short: bool = True) -> str:
     """Return the copy: definitions of proof_check.py without docstrings, in few lines."""
     made = list[str]()
+    source = re.sub(r".*  # own\n", "", source)
     for node in ast.parse(source).body:
         if name_of(node) not in NAMES:
             continue
@@ -100,7 +45,8 @@ def reader(source: str, *, is_short: bool = True) -> str:
             if isinstance(part, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(part):
                 part.body = part.body[1:] or [ast.Pass()]
         made.append(ast.unparse(node))
-    return "\n".join(joined(text) if is_short else text for text in made) + "\n"
+    text = "\n".join(made)
+    return (joined(text) if is_short else text) + "\n"
 
 
 def name_of(node: ast.stmt) -> str:
@@ -111,13 +57,20 @@ def name_of(node: ast.stmt) -> str:
 
 
 def joined(text: str) -> str:
-    """Put a single simple statement behind the colon before it, and short ones side by side."""
+    """Put short simple statements side by side, and a line of them behind the colon before it."""
+    while (shorter := joined_once(text)) != text:
+        text = shorter
+    return text
+
+
+def joined_once(text: str) -> str:
+    """Put some of them together."""
     lines, made = [line for line in text.split("\n") if line], list[str]()
     for i, line in enumerate(lines):
         last = made[-1] if made else ""
         deep, of_next = depth(line), depth(lines[i + 1]) if i + 1 < len(lines) else -1
         fits = len(last) + len(line.strip()) < WIDTH
-        alone = last.endswith(":") and of_next < deep and is_simple(line)
+        alone = last.endswith(":") and COMPOUND.match(last) and of_next < deep and is_simple(line)
         beside = is_simple(last) and is_simple(line) and depth(last) == deep
         if fits and alone:
             made[-1] = f"{last} {line.strip()}"

@@ -30,8 +30,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import accumulate, combinations, pairwise, zip_longest
+from itertools import accumulate, chain, combinations, pairwise, zip_longest
 from math import comb, floor, gcd, lcm
+from operator import mul
 from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
@@ -125,17 +126,18 @@ class Poly(tuple[Any, ...]):
         return super().__new__(cls, f)
 
     def __add__(self, g: "Poly") -> "Poly":  # type: ignore[override]
-        return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)])
+        both = self and g
+        return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)]) if both else self or g
 
     def __sub__(self, g: "Poly") -> "Poly":
         return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
 
     def __mul__(self, g: "Poly") -> "Poly":  # type: ignore[override]
-        if len(self) == 1:
-            return g if self[0] == 1 else Poly([self[0] * b for b in g])
+        if len(self) < 2 or not g:
+            return g if self == (1,) or not g else Poly([a * b for a in self for b in g])
         if len(self) * len(g) > 8:
             WORK.spend(len(self) * len(g) * most_words(self) * most_words(g))
-        product = [0] * (len(self) + len(g) - 1) if self and g else []
+        product = [0] * (len(self) + len(g) - 1)
         for i, a in enumerate(self):
             for j, b in enumerate(g):
                 product[i + j] += a * b
@@ -386,6 +388,8 @@ Whole = tuple[int, int, int]
 Entry = TypeVar("Entry", int, Poly)
 Triple = tuple[Entry, Entry, Entry]
 Turn = tuple[Poly, Point, Json]  # the half turn, the orientation, and the rest
+ONE = Poly([Fraction(1)])
+Poses = tuple[Point, list[Fraction], list[list[Poly]]]  # of a path: its errors, times and poses
 
 
 def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
@@ -413,11 +417,16 @@ def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
     return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
 
 
-def whole(p: Point) -> Whole:
-    """Return a point in integers."""
-    w = lcm(p[0].denominator, p[1].denominator)
-    x, y = (c.numerator * (w // c.denominator) for c in p)
-    return x, y, w
+def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
+    """Return the values of polynomials in integers at a time, times one positive number."""
+    n, d, k = t.numerator, t.denominator, max(map(len, polynomials))
+    if (n | d) >> 64:
+        longest = max(map(most_words, polynomials))
+        WORK.spend(len(polynomials) * k**2 * words(t) * (k * words(t) + longest))
+    powers = [n**i * d ** (k - 1 - i) for i in range(k)]
+    found = [sum(map(mul, f, powers)) for f in polynomials]
+    WORK.spend(k * sum(map(words, found)))
+    return found
 
 
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
@@ -429,14 +438,18 @@ def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
     return any(f == 0 and dot_of(x, v, y) <= 0 for f, v, x, y in ends)
 
 
-def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> bool:
+def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
+    """Return True if points, as many of both, are equal."""
+    return all(vector_of(p, q) == (0, 0) for p, q in zip(points, others, strict=True))
+
+
+def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
     """Return True if edges (numbers of vertices, counted from the first) meet only at joints."""
-    points = [whole(p) for p in places]
-    spans = []
+    spans, near = [], [((x << 256) // w, (y << 256) // w) for x, y, w in points]
     for u, v in edges:
-        (x, y), (z, w) = places[u - first], places[v - first]
-        if (x, y) == (z, w):
+        if vector_of(points[u - first], points[v - first]) == (0, 0):
             return False
+        (x, y), (z, w) = near[u - first], near[v - first]
         spans.append((min(x, z), max(x, z), min(y, w), max(y, w), u - first, v - first))
     spans.sort()
     for k, (_, right, bottom, top, a, b) in enumerate(spans):
@@ -457,13 +470,13 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
     return True
 
 
-def surrounds(ring: Sequence[Point], p: Point) -> bool:
+def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     """Return True if a ray from p to the right crosses a polygon an odd number of times."""
-    odd = False
     WORK.spend(300 * len(ring))
-    for a, b in pairwise([*ring, *ring[:1]]):
-        if (a[1] > p[1]) != (b[1] > p[1]):
-            odd ^= a[0] + (p[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > p[0]
+    above, odd = [q[1] * p[2] > p[1] * q[2] for q in ring], False
+    for i, a in enumerate(ring):
+        if above[i] != above[i - 1]:
+            odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
     return odd
 
 
@@ -504,7 +517,7 @@ def number(data: Json) -> Fraction:
     whole, under, minus, units, decimals, exponent = match.groups()
     if whole is not None:
         need(under is None or under.strip("0"), "a denominator is zero:", data)
-        q = Fraction(int(whole), int(under or 1))
+        q = Fraction(int(whole), int(under)) if under else Fraction(int(whole))
     else:
         need(units or decimals, "not a number:", data)
         power, n = int(exponent or 0), int(minus + units + decimals)
@@ -519,7 +532,7 @@ def number(data: Json) -> Fraction:
 def keys(data: Json, required: Sequence[str] = (), optional: Sequence[str] = ()) -> dict[str, Json]:
     """Return a JSON object with all of the required keys, and no others but the optional ones."""
     known = isinstance(data, dict) and set(required) <= set(data) <= {*required, *optional}
-    need(known, f"not an object with {required}, {optional}:", data)
+    need(known, "not an object, or with other keys:", data)
     return dict(data)
 
 
@@ -531,9 +544,8 @@ def entries(data: Json, length: int | None = None) -> list[Json]:
 
 def check_json(data: Json, levels: int) -> None:
     """Check a value that has no meaning here, and how deep it is."""
-    need(not isinstance(data, float), "a number that JSON has not:", data)
-    is_text = not isinstance(data, str) or not re.search("[\ud800-\udfff]", data)
-    need(is_text, "an unpaired surrogate:", data)
+    is_text = isinstance(data, str) and not re.search("[\ud800-\udfff]", data)
+    need(is_text or not isinstance(data, (str, float)), "a number or text that is none:", data)
     if isinstance(data, (dict, list)):
         need(levels, "nested too deeply:", None)
         for value in [*data, *data.values()] if isinstance(data, dict) else data:
@@ -557,53 +569,49 @@ class Motion:
     """
 
     def __init__(self, data: Json, of_shape: int) -> None:
-        one, zero = c_(Fraction(1)), Poly()
-        self.rigid: Turn | None = None
+        self.rigid: Turn | None = None  # own
         kind = next((k for k in ("rigid", "affine") if isinstance(data, dict) and k in data), "")
         optional = ["pivot", "orientation"] if kind == "rigid" else []
         required = {"rigid": ["half_turn"], "affine": ["matrix"], "": []}[kind]
         given = keys(keys(data, [kind])[kind] if kind else data, required, ["x", "y", *optional])
         x, y = (polynomial(given.get(k, [])) for k in "xy")
-        m, high = [one, zero, zero, one], max(of_shape, degree(x, y))
+        m, high = [ONE, Poly(), Poly(), ONE], max(of_shape, degree(x, y))
         if kind == "affine":
             m = [polynomial(p) for row in entries(given["matrix"], 2) for p in entries(row, 2)]
             high = max(of_shape + degree(*m), degree(x, y))
         h = polynomial(given.get("half_turn", []))
         need(high + 2 * degree(h) <= MOST_DEGREE, f"a degree above {MOST_DEGREE}")
-        self.keeps_lengths, self.form = kind != "affine", (*m, x, y, one)
+        self.keeps_lengths = kind != "affine"  # own
+        form = *m, x, y, ONE
         if kind == "rigid":
-            c, s = turned = point(given.get("orientation", ["1", "0"]))
+            c, s = point(given.get("orientation", ["1", "0"]))
             need(c * c + s * s == 1, "an orientation that is no unit vector:", data)
-            p, q = map(c_, point(given.get("pivot", ["0", "0"])))
-            self.rigid = h, turned, (p, q, x, y)
+            p, q = (Poly([k]) for k in point(given.get("pivot", ["0", "0"])))
+            self.rigid = h, (c, s), (p, q, x, y)  # own
             # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
-            w, cosine, sine = one + h * h, one - h * h, h + h
-            a, b = cosine * c_(c) - sine * c_(s), sine * c_(c) + cosine * c_(s)
+            w, cosine, sine = ONE + h * h, ONE - h * h, h + h
+            a, b = cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s])
             e, f = w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q
-            self.form = a, zero - b, b, a, e, f, w
+            form = a, Poly() - b, b, a, e, f, w
+        self.form = cleared(*form)[:7]
 
         self.cost = sum(len(f) * (300 + 2 * most_words(f) ** 2) for f in self.form)
 
-    def at(self, t: Fraction) -> tuple[Fraction, ...]:
-        """Return the coefficients a, b, c, d, e, f at a time, divided by w."""
-        *values, w = (f.value(t) for f in self.form)
-        return tuple(v / w for v in values)
-
-    def track(self, x: Poly, y: Poly) -> Track:
-        """Return the track of a vertex: polynomials with integer coefficients."""
+    def track(self, x: Poly, y: Poly, z: Poly) -> Track:
+        """Return the track of a vertex at (x / z, y / z)."""
         WORK.spend(self.cost * (len(x) + len(y)))
         a, b, c, d, e, f, w = self.form
-        found = a * x + b * y + e, c * x + d * y + f, w
-        m = lcm(*(q.denominator for g in found for q in g))
-        whole = [[k.numerator * (m // k.denominator) for k in g] for g in found]
-        m = gcd(*(k for g in whole for k in g))
-        x, y, w = (Poly([k // m for k in g]) for g in whole)
+        found = x * a + y * b + z * e, x * c + y * d + z * f, z * w
+        m = gcd(*chain(*found))
+        x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found
         return x, y, w
 
 
-def c_(value: Fraction) -> Poly:
-    """Return a constant polynomial."""
-    return Poly([value])
+def cleared(*given: Poly) -> tuple[Poly, ...]:
+    """Return polynomials times their common denominator, and this number."""
+    m = lcm(*[q.denominator for q in chain(*given)])
+    WORK.spend(words(m) ** 2 * sum(map(len, given)))
+    return *(Poly([q.numerator * (m // q.denominator) for q in f]) for f in given), Poly([m])
 
 
 class Body:
@@ -619,28 +627,21 @@ class Body:
         need(sum(key in body for key in shape) == 1, "vertices or keyframes or parts:", data)
         need("holes" not in body or "vertices" in body, "holes without vertices:", data)
         self.name, closed = body["name"], body.get("closed", True)
-        is_text = isinstance(self.name, str) and not isinstance(self.name, Bare) and self.name
-        need(is_text and not re.search("[\ud800-\udfff]", self.name), "a name:", self.name)
+        need(type(self.name) is str and self.name, "a name:", self.name)
         need(isinstance(closed, bool), "closed:", closed)
         self.radius = number(body.get("radius", "0"))
         need(self.radius >= 0, "a radius:", body.get("radius"))
         need(isinstance(body.get("properties", {}), dict), "properties:", self.name)
-        check_json(body.get("properties"), 29)
+        check_json([self.name, body.get("properties")], 30)
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
         need(parts or "parts" not in body, "no parts:", data)
-        rings = [
-            [entries(r) for r in (part.get("vertices", []), *entries(part.get("holes", [])))]
-            for part in (parts or [body])
-        ]
+        of = [(p.get("vertices", []), *entries(p.get("holes", []))) for p in parts or [body]]
+        rings = [[*map(entries, part)] for part in of]
         flat = [ring for part in rings for ring in part]
         several = "parts" in body or len(flat) > 1
         need(not several or (closed and min(map(len, flat)) > 2), "rings:", data)
-        self.shape: list[tuple[Poly, Poly]] = []
-        self.frames: list[tuple[Fraction, list[Point]]] = []
-        if "keyframes" in body:
-            self.frames = keyframes(body["keyframes"])
-        else:
-            self.shape = [vertex(data) for ring in flat for data in ring]
+        self.frames = keyframes(body["keyframes"]) if "keyframes" in body else []
+        self.shape = [vertex(data) for ring in flat for data in ring]
         self.first, self.size = first, len(self.frames[0][1] if self.frames else self.shape)
         need(self.size, "no vertices:", self.name)
         self.read_motion(body.get("motion", {}))
@@ -652,11 +653,8 @@ class Body:
             self.parts.append([range(i, j) for i, j in pairwise(bounds)])
             first = self.parts[-1][-1].stop
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
-        self.edges = [
-            edge
-            for ring, _ in self.rings
-            for edge in [*pairwise(ring), *[(ring[-1], ring[0])][: self.closed]]
-        ]
+        ends = [(ring, [(ring[-1], ring[0])][: self.closed]) for ring, _ in self.rings]
+        self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
         self.tracks: dict[tuple[int, int], Track] = {}
         self.check_simple(self.places(start))
 
@@ -674,31 +672,34 @@ class Body:
         need(all(s < t for s, t in pairwise(self.ends)), "pieces not in order:", data)
         self.motions = [Motion(p["motion"], of_shape) for p in rows]
         for t, (before, after) in zip(self.ends, pairwise(self.motions), strict=True):
-            same = before.at(t) == after.at(t) or self.places(t, before) == self.places(t, after)
-            need(same, f"{self.name!a} jumps at t = {t}")
-        for name, shows in (("spin", turns_by), ("path", follows)):
-            right = name not in given or shows(self.ends, self.motions, given[name])
-            need(right, f"not such a {name}:", data)
+            u, v = values(before.form, t), values(after.form, t)
+            if [c * v[6] for c in u] != [c * u[6] for c in v]:
+                same = are_same(self.places(t, before), self.places(t, after))
+                need(same, f"{self.name!a} jumps at t = {t}")
+        self.spin = spin_of(given["spin"]) if "spin" in given else None
+        self.path = path_of(given["path"]) if "path" in given else None
+        right = not self.spin or turns_by(self.ends, self.motions, self.spin)  # own
+        right = right and (not self.path or follows(self.ends, self.motions, self.path))  # own
+        need(right, "not such a path or spin:", data)  # own
 
-    def coordinates(self, i: int, t: Fraction) -> tuple[Poly, Poly]:
-        """Return the coordinates of vertex i just after a time, before the motion."""
+    def coordinates(self, i: int, t: Fraction) -> tuple[Poly, ...]:
+        """Return (x, y, z) of vertex i at (x / z, y / z), before motions; at rest off frames."""
         if not self.frames:
             return self.shape[i]
         k = bisect_right(self.frames, t, key=lambda frame: frame[0])
-        # Before the first frame and after the last one it is at rest.
         (s, p), (e, q) = self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]
-        x, y = (line(s, e, a, b) for a, b in zip(p[i], q[i], strict=True))
-        return x, y
+        slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
+        return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
 
-    def places(self, t: Fraction, motion: Motion | None = None) -> list[Point]:
+    def places(self, t: Fraction, motion: Motion | None = None) -> list[Whole]:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
         WORK.spend(1000 * self.size)
-        a, b, c, d, e, f = (motion or self.motions[bisect_right(self.ends, t)]).at(t)
-        shape = (self.coordinates(i, t) for i in range(self.size))
-        points = ((x.value(t), y.value(t)) for x, y in shape)
-        return [(a * x + b * y + e, c * x + d * y + f) for x, y in points]
+        motion = motion or self.motions[bisect_right(self.ends, t)]
+        a, b, c, d, e, f, w = values(motion.form, t)
+        shape = (values(self.coordinates(i, t), t) for i in range(self.size))
+        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
 
-    def check_simple(self, places: Sequence[Point]) -> None:
+    def check_simple(self, places: Sequence[Whole]) -> None:
         """Check that edges meet only where joined, and that holes and parts are in place."""
         need(is_simple(places, self.edges, self.first), f"{self.name!a} is not simple at the start")
         if len(self.rings) == 1:
@@ -727,15 +728,9 @@ class Body:
     def keeps_lengths(self, t: Fraction) -> bool:
         """Return True if the body is only translated and rotated just after a time."""
         WORK.spend(500 * self.size)
-        (x, y), *others = (self.coordinates(i, t) for i in range(self.size))
-        same = all(f[1:] == x[1:] and g[1:] == y[1:] for f, g in others)
+        (f, g, h), *others = (self.coordinates(i, t) for i in range(self.size))
+        same = all((f * w)[1:] == (x * h)[1:] and (g * w)[1:] == (y * h)[1:] for x, y, w in others)
         return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
-
-
-def line(s: Fraction, e: Fraction, a: Fraction, b: Fraction) -> Poly:
-    """Return the polynomial of degree 1 with the value a at s and b at e."""
-    slope = (b - a) / (e - s) if a != b else Fraction(0)
-    return Poly([a - slope * s, slope])
 
 
 def point(data: Json) -> Point:
@@ -744,13 +739,12 @@ def point(data: Json) -> Point:
     return x, y
 
 
-def vertex(data: Json) -> tuple[Poly, Poly]:
-    """Return a vertex: two numbers, or an object with polynomials x and y."""
+def vertex(data: Json) -> tuple[Poly, ...]:
+    """Return (x, y, z) of a vertex at (x / z, y / z): two numbers, or polynomials x and y."""
     if isinstance(data, dict):
         given = keys(data, optional=["x", "y"])
-        return polynomial(given.get("x", [])), polynomial(given.get("y", []))
-    x, y = point(data)
-    return c_(x), c_(y)
+        return cleared(*(polynomial(given.get(k, [])) for k in "xy"))
+    return cleared(*(Poly([c]) for c in point(data)))
 
 
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
@@ -762,6 +756,25 @@ def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     return path
 
 
+def spin_of(data: Json) -> Point:
+    """Return the rate and the error of a spin."""
+    omega, error = (number(keys(data, ["omega", "error"])[k]) for k in ("omega", "error"))
+    need(error > 0, "a spin's error:", data)
+    return omega, error
+
+
+def path_of(data: Json) -> Poses:
+    """Return the errors, the times and the poses of a path."""
+    path = keys(data, ["error", "place_error", "times", "poses"])
+    error, off = number(path["error"]), number(path["place_error"])
+    times = [number(t) for t in entries(path["times"])]
+    rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
+    poses = [[polynomial(row[k]) for k in ("x", "y", "angle")] for row in rows]
+    right = error > 0 and off >= 0 and len(times) == len(poses) + 1 > 1
+    need(right and all(s < t for s, t in pairwise(times)), "not such a path:", data)
+    return (error, off), times, poses
+
+
 # ---- A spin: pieces that turn by the angle omega t, but for an error. Of the angle of a piece, p +
 # 2 arctan h(t), |h| <= 1, the difference from omega t is bounded at nine times; between these it
 # changes by at most the largest slope, (2 h' - omega (1 + h^2)) / (1 + h^2), times half a step.
@@ -770,22 +783,21 @@ SAMPLES, MOST_ANGLE_BITS = 8, 512
 Bounds = tuple[Fraction, Fraction]
 
 
-def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> bool:
-    """Return True if this shows that motions turn by omega t, from the first end to the last."""
-    omega, error = map(number, keys(data, ["error", "omega"]).values())
+def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], spin: Point) -> bool:
+    """Return True if motions are seen to turn by omega t, from the first end to the last."""
     turns = [motion.rigid for motion in motions if motion.rigid]
-    if error <= 0 or len(turns) < max(len(motions), 3):
+    if len(turns) < max(len(motions), 3):
         return False
     if degree(turns[0][0], turns[-1][0]) > 0 or any(turn[2] != turns[0][2] for turn in turns):
         return False
     spans = zip(turns[1:-1], pairwise(ends), strict=True)
-    return all(turns_in(turn, span, omega, error) for turn, span in spans)
+    return all(turns_in(turn, span, *spin) for turn, span in spans)
 
 
 def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool:
     """Return True if this shows it of one piece and its span."""
     (h, turned, _), (a, b) = turn, span
-    slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - c_(omega) * (c_(Fraction(1)) + h * h)
+    slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - Poly([omega]) * (ONE + h * h)
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
     times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
     bits = bits_for(error, omega * max(abs(a), abs(b)))
@@ -818,22 +830,11 @@ def bits_for(error: Fraction, angle: Fraction) -> int:
 # max |E| (1 + 2 max |h| max |h'|), since |w'| <= 2 |h h'|.
 
 
-def follows(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> bool:
-    """Return True if this shows that motions follow a path within its errors."""
-    path = keys(data, ["error", "place_error", "times", "poses"])
-    errors = number(path["error"]), number(path["place_error"])
-    times = [number(t) for t in entries(path["times"])]
-    rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
-    poses = [[polynomial(row[key]) for key in ("x", "y", "angle")] for row in rows]
+def follows(ends: Sequence[Fraction], motions: Sequence[Motion], path: Poses) -> bool:
+    """Return True if motions are seen to follow a path within its errors."""
+    errors, times, poses = path
     turns = [motion.rigid for motion in motions if motion.rigid]
-    if not (
-        errors[0] > 0
-        and errors[1] >= 0
-        and len(times) == len(poses) + 1 > 1
-        and all(s < t for s, t in pairwise(times))
-        and len(turns) == len(motions) > 2
-        and (ends[0], ends[-1]) == (times[0], times[-1])
-    ):
+    if not len(turns) == len(motions) > 2 or (ends[0], ends[-1]) != (times[0], times[-1]):
         return False
     for (s, t), (before, after) in zip(pairwise(times), pairwise(poses), strict=False):
         if [f.value(t - s) for f in before] != [f.value(Fraction(0)) for f in after]:
@@ -857,7 +858,7 @@ def is_near(turn: Turn, span: Bounds, pose: Sequence[Poly], error: Fraction, off
     if bits > MOST_ANGLE_BITS or dx.bound(*all_of_it) ** 2 + dy.bound(*all_of_it) ** 2 > off**2:
         return False
     slope, parts = h.derivative(), [Fraction(i, SAMPLES) for i in range(SAMPLES + 1)]
-    rate = slope + slope - pose[2].derivative() * (c_(Fraction(1)) + h * h)
+    rate = slope + slope - pose[2].derivative() * (ONE + h * h)
     change = Poly([0, *(f / (i + 1) for i, f in enumerate(rate))])
     cosine, sine = (1 - u * u) / (1 + u * u), 2 * u / (1 + u * u)
     low, high = angle_of((c * cosine - s * sine, c * sine + s * cosine), bits + 8)
@@ -925,7 +926,7 @@ class Scene:
             self.read(data)
         except (ValueError, RecursionError) as error:
             raise NoProofError(f"the scene is not JSON, or nested too deeply: {error}") from None
-        self.known: tuple[Fraction, dict[int, Point]] = self.start, {}
+        self.known: tuple[Fraction, dict[int, Point]] = self.start, {}  # own
 
     def read(self, data: Json) -> None:
         """Read all of it."""
@@ -934,8 +935,7 @@ class Scene:
         need(version == "1" and isinstance(version, Bare), "not of format 1:", version)
         self.start, self.end = point(top["time"])
         need(self.start < self.end, "an empty time span:", top["time"])
-        self.bodies: list[Body] = []
-        self.body_of: list[int] = []
+        self.bodies, self.body_of = list[Body](), list[int]()
         for i, entry in enumerate(entries(top["bodies"])):
             self.bodies.append(Body(entry, len(self.body_of), self.start))
             self.body_of += [i] * self.bodies[-1].size
@@ -950,13 +950,18 @@ class Scene:
         body = self.of(v)
         return body.track(v - body.first, after)
 
+    def place(self, v: int, t: Fraction) -> Whole:
+        """Return where a vertex is at a rational time, in integers."""
+        x, y, w = values(self.track(v, t), t)
+        return x, y, w
+
     def at(self, v: int, t: Fraction) -> Point:
         """Return where a vertex is at a rational time."""
         if self.known[0] != t:
             self.known = t, {}
         if v not in self.known[1]:
-            x, y, w = (f.value(t) for f in self.track(v, t))
-            self.known[1][v] = x / w, y / w
+            x, y, w = self.place(v, t)
+            self.known[1][v] = Fraction(x, w), Fraction(y, w)
         return self.known[1][v]
 
     def breaks_in(self, vertices: Iterable[int], low: Fraction, high: Fraction) -> set[Fraction]:
@@ -993,7 +998,7 @@ class Scene:
                 of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
                 forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
                 forms += [(dot_of(a, v, b), of_a * of_b), (orientation_of(a, v, b), of_a * b[2])]
-                if any(f * c_(g.value(t)) != g * c_(f.value(t)) for f, g in forms):
+                if any(f * Poly([g.value(t)]) != g * Poly([f.value(t)]) for f, g in forms):
                     return False
         return True
 
@@ -1486,13 +1491,13 @@ class Checker:
             there = there and is_on(time, *(tracks[u] for u in (v[0], v[1], v[-1])))
         elif kind == "edge edge":
             there = at_start and {(v[0], v[1]), (v[2], v[3])} <= self.body_darts
-            there = there and meet(*(whole(scene.at(u, scene.start)) for u in v))
+            there = there and meet(*(scene.place(u, scene.start) for u in v))
         elif at_start and other.closed:
-            place = {u: scene.at(u, scene.start) for u in v}
+            place = {u: scene.place(u, scene.start) for u in v}
             rings = ([place[u] for u in ring] for ring, _ in other.rings)
             there = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2 == 1
-            p = whole(place[v[0]])
-            there |= any(meet(p, p, *(whole(place[u]) for u in e)) for e in other.edges)
+            p = place[v[0]]
+            there |= any(meet(p, p, *(place[u] for u in e)) for e in other.edges)
         require(there, f"there is no such contact at t = {time}: {' '.join(row)}")
         self.named = {scene.body_of[v[0]], scene.body_of[v[-1]]}
         if kind == "vertex inside":
@@ -1540,11 +1545,8 @@ ORDER = "exactpt-proof scene span( face| inside| outer)*+( event)*+ (contact|non
 def is_rational(word: str) -> bool:
     """Return True if a word is a rational of at most `MOST_DIGITS` digits above and below."""
     over, _, under = word.removeprefix("-").partition("/")
-    return bool(
-        re.fullmatch(R, word)
-        and max(len(over), len(under)) <= MOST_DIGITS
-        and ("/" not in word or under.strip("0"))
-    )
+    is_short = max(len(over), len(under)) <= MOST_DIGITS
+    return bool(is_short and re.fullmatch(R, word) and ("/" not in word or under.strip("0")))
 
 
 def is_bounded(row: list[str]) -> bool:
@@ -1552,12 +1554,9 @@ def is_bounded(row: list[str]) -> bool:
     if row[0] not in ("span", "event", "contact"):
         return True
     end = next((i for i, w in enumerate(row) if w in (*STARTS, "@")), len(row))
-    f = row[3:end]
-    return (
-        all(map(is_rational, row[1:3]))
-        and len(f) <= MOST_TERMS
-        and sum(len(c.removeprefix("-")) for c in f) <= MOST_DIGITS_OF_TIME
-    )
+    digits = sum(len(c.removeprefix("-")) for c in row[3:end])
+    is_short = end - 3 <= MOST_TERMS and digits <= MOST_DIGITS_OF_TIME
+    return is_short and all(map(is_rational, row[1:3]))
 
 
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
@@ -1590,8 +1589,7 @@ def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Prov
         if rows[1][1][2] != digest:
             raise NoProofError("the proof is of another scene: the hash of its file is another one")
         scene = Scene(text)
-        for body in scene.bodies:
-            need(body.radius == 0, "a radius: no proof is possible:", str(body.radius))
+        need(not any(body.radius for body in scene.bodies), "a radius: no proof is possible")
         checker = Checker(scene)
         proved = checker.check_rows(rows[2:])
         return proved.within(f"accepted: {digest[:16]} {proved}")
@@ -1747,7 +1745,8 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
         a, b = old[name], new[name]
         same = [r.start - a.first for r, _ in a.rings] == [r.start - b.first for r, _ in b.rings]
         same = same and [h for _, h in a.rings] == [h for _, h in b.rings]
-        same = same and a.closed == b.closed and a.places(t) == b.places(t)
+        same = same and a.closed == b.closed and a.size == b.size
+        same = same and are_same(a.places(t), b.places(t))
         require(same, f"rejected: part {k}: {name!a} is not what or where it was")
     come, go = [n for n in new if n not in old], [n for n in old if n not in new]
     words = [

@@ -169,6 +169,8 @@ class Checker {
                quoted(scene_.bodies()[static_cast<std::size_t>(i)].name);
     result.text = words + names + (names.empty() ? "" : ")");
     result.until = high;
+    result.low = text_.end;
+    result.has_contact = has_contact && text_.distance == 0;
     result.is_of_all = selection_.empty() && !is_later;
     result.is_whole = result.is_of_all && rest.empty();
     return result;

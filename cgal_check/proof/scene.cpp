@@ -133,7 +133,7 @@ Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b) {
          (a.y * v.w - v.y * a.w) * (b.y * v.w - v.y * b.w);
 }
 
-Scene::Scene(const std::string& text) {
+Scene::Scene(const std::string& text, bool are_records_verified) {
   const Json json = parse_json(text);
   allow_keys(json, {"exactpt", "time", "bodies"});
   const Json* version = json.find("exactpt");
@@ -148,7 +148,7 @@ Scene::Scene(const std::string& text) {
   if (start_ >= end_) throw NoProof("the scene has an empty time span");
   std::set<std::string> names;
   for (const Json& body : list(bodies)) {
-    bodies_.push_back(read_body(body, size(), start_));
+    bodies_.push_back(read_body(body, size(), start_, are_records_verified));
     if (!names.insert(bodies_.back().name).second) throw NoProof("the scene has a name twice");
     body_of_.resize(body_of_.size() + static_cast<std::size_t>(bodies_.back().size),
                     static_cast<int>(bodies_.size()) - 1);

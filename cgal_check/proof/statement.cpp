@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apart.hpp"
 #include "checker.hpp"
 #include "faults.hpp"
 #include "json.hpp"
@@ -33,6 +34,24 @@ int number_in(const Json& json, const char* key) {
       found->text.front() == '-')
     throw NoProof("the answer has no number for " + std::string(key));
   return std::stoi(found->text);
+}
+
+struct AnsweredTime {
+  Poly<Integer> f;
+  Rational low, high;
+};
+
+AnsweredTime time_in(const Json& contact) {
+  const Json& time = *member(contact, "time");
+  AnsweredTime root{{}, exact_number(member(time, "low")), exact_number(member(time, "high"))};
+  for (const Json& c : list(member(time, "polynomial"))) {
+    if (!is_integer(c.text)) throw NoProof("the answer has no polynomial");
+    root.f.push_back(Integer(c.text, 10));
+  }
+  trim(root.f);
+  if (root.f.empty() || (root.low == root.high && sign_at(root.f, root.low) != 0))
+    throw NoProof("the answer has no time");
+  return root;
 }
 
 }  // namespace
@@ -120,16 +139,7 @@ std::string Checker::difference(const std::string& answer) const {
     const bool is_same = !text_.contact && text_.end >= exact_number(member(json, "until"));
     return is_same ? "" : "no contact is the answer";
   }
-  const Json& time = *member(*contact, "time");
-  Poly<Integer> f;
-  for (const Json& c : list(member(time, "polynomial"))) {
-    if (!is_integer(c.text)) throw NoProof("the answer has no polynomial");
-    f.push_back(Integer(c.text, 10));
-  }
-  trim(f);
-  const Rational low = exact_number(member(time, "low")), high = exact_number(member(time, "high"));
-  if (f.empty() || (low == high && sign_at(f, low) != 0))
-    throw NoProof("the answer has no time");
+  const auto [f, low, high] = time_in(*contact);
   std::set<Incidence> pairs;
   const auto incident = [&](const Json& side) {
     const std::string& name = member(side, "body")->text;
@@ -153,6 +163,28 @@ std::string Checker::difference(const std::string& answer) const {
   if (!is_same) return "another time is the answer";
   if (is_initial) return is_at_start_ ? "" : "a contact at the start is the answer";
   return pairs == found_ ? "" : "other incidences are the answer";
+}
+
+std::string difference(const Statement& found, const std::string& answer) {
+  const Json json = parse_json(answer);
+  const Json* contact = member(json, "contact");
+  if (contact->kind == Json::Kind::null) {
+    const bool is_same = found.low >= exact_number(member(json, "until"));
+    return is_same ? "" : "no contact is the answer";
+  }
+  const AnsweredTime time = time_in(*contact);
+  const auto sign_of_f = [&](const Rational& t) { return sign_at(time.f, t); };
+  const int at_low = sign_of_f(time.low), at_high = sign_of_f(time.high);
+  if (time.low != time.high && (time.low > time.high || at_low * at_high >= 0))
+    throw NoProof("the answer has no time");
+  if (member(*contact, "kind")->text == "self" || !found.has_contact)
+    return "a contact that is not certified is the answer";
+  const Rational &a = found.low, &b = found.until;
+  const bool is_start = time.low == a && time.high == a && a == b;
+  const bool is_after =
+      is_start || time.low > a || (time.high > a && sign_of_f(a) * at_low > 0);
+  const bool is_before = time.high <= b || (time.low < b && sign_of_f(b) * at_high >= 0);
+  return is_after && is_before ? "" : "another time is the answer";
 }
 
 }  // namespace proof

@@ -79,7 +79,8 @@ Call read_call(const std::vector<std::string>& words) {
       }
     }
   }
-  const int wishes = call.is_partial + call.until.has_value() + !call.expected.empty();
+  // A certificate may be of some pairs, and an answer does not say so.
+  const int wishes = call.until.has_value() + (call.is_partial || !call.expected.empty());
   const std::size_t count = call.paths.size();
   if (count == 0 || count > 2 || wishes > 1 || (count == 1 && !call.expected.empty()))
     throw NoProof(usage);
@@ -216,19 +217,24 @@ void refuse_radii(const Scene& scene) {
 }
 
 int verify_certificate(const Call& call, const std::string& scene_bytes, const std::string& bytes) {
-  if (!call.expected.empty() || call.jobs != 1) throw NoProof(usage);
+  if (call.jobs != 1) throw NoProof(usage);
   const ApartText text = parse_certificate(bytes);
   const std::string hash = sha256(scene_bytes);
   if (text.hash != hash)
     throw NoProof("the certificate was made for a different scene: the hashes differ");
-  const Scene scene(scene_bytes);
+  const Scene scene(scene_bytes, false);
   const Statement found = check_apart(scene, text);
-  const bool is_enough = found.is_whole || call.is_partial ||
-                         (call.until && found.is_of_all && *call.until <= found.until);
+  const std::string proved = "accepted: " + hash.substr(0, 16) + " " + found.text;
+  const bool is_up_to = !call.expected.empty() || (call.until && *call.until <= found.until);
+  const bool is_enough = found.is_whole || call.is_partial || (found.is_of_all && is_up_to);
   if (!is_enough)
-    return answer("rejected: proved is only a part (see --until, --partial): accepted: " +
-                      hash.substr(0, 16) + " " + found.text, 1);
-  return answer("accepted: " + hash.substr(0, 16) + " " + found.text, 0);
+    return answer("rejected: proved is only a part (see --until, --partial): " + proved, 1);
+  if (!call.expected.empty()) {
+    const std::string fault = difference(found, bytes_of(call.expected));
+    if (!fault.empty())
+      return answer("rejected: " + fault + " in " + quoted(call.expected) + "; proved is: " + proved, 1);
+  }
+  return answer(proved, 0);
 }
 
 constexpr const char* head_of_rows = "exactpt-apart-rows 1\n";
@@ -255,7 +261,7 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     if (k > 0 && scenes[k].compare(0, 3, "\xef\xbb\xbf") == 0)
       throw NoProof("a byte order mark that is not the beginning of the file");
-    const Scene scene(scenes[k]);
+    const Scene scene(scenes[k], false);
     std::string& row = rows[k + 2];
     if (row == "open") {
       ++found[3];
@@ -291,6 +297,7 @@ int verify_pair(const Call& call) {
   work_left = call.work.value_or(usual_work(scene_bytes.size() + bytes.size()));
   if (bytes.compare(0, 21, head_of_rows) == 0) return verify_rows(call, scene_bytes, bytes);
   if (is_certificate(bytes)) return verify_certificate(call, scene_bytes, bytes);
+  if (call.is_partial && !call.expected.empty()) throw NoProof(usage);
   const ProofText text = parse_proof(bytes);
   const std::string hash = sha256(scene_bytes);
   if (text.hash != hash)

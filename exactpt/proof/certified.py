@@ -11,16 +11,17 @@ from typing import TYPE_CHECKING, Any, Final, final
 
 import numpy as np
 
-from exactpt.check_apart import WORK, Rejected, are_near, require_passage, surrounds
+from exactpt.check_apart import WORK, Poly, Rejected, Whole, are_near, require_passage, surrounds
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.selection import Selection
-from exactpt.proof.apart import Paths, Separation, short
+from exactpt.proof.apart import Separation
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import beside, scene_bytes
+from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json
@@ -178,7 +179,7 @@ class _Certificate:
         self._bodies, self._file, self._distance = scene.bodies, file, distance
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._selection = selection
-        self._paths = Paths(scene.bodies)
+        self._paths = Paths(scene.bodies, distance)
 
     def _counts(self, bodies: set[int]) -> bool:
         """See `exactpt.check_apart.Checker.count`."""
@@ -209,10 +210,7 @@ class _Certificate:
         if found is None or start < until:
             groups, named = self._selection.group, self._selection.named
             several = groups if named is None else range(len(groups))
-            separation = Separation(
-                self._paths, self._bodies, several, self._counts, self._distance, named
-            )
-            head += separation.lines(start, until)
+            head += Separation(self._paths, several, self._counts, named).lines(start, until)
         return "".join(f"{line}\n" for line in [*head, *last]).encode()
 
     def _chosen(self) -> Iterator[str]:
@@ -269,9 +267,9 @@ class _Certificate:
         """
         first, items = self._paths.first, self._paths.items
         place = {
-            v: (fraction(x), fraction(y))
+            v: self._paths.place(v, t)
             for k in {k for pair in pairs for k in pair}
-            for v, (x, y) in enumerate(self._bodies[k]._at(QQ(t)), first[k])
+            for v in range(first[k], first[k] + self._bodies[k].size)
         }
         for i, j in pairs:
             far = self._distance + self._bodies[i].radius + self._bodies[j].radius
@@ -300,7 +298,8 @@ class _Certificate:
             breaks = self._paths.of(u).breaks
             until = max([until, *(q for q in breaks if q <= low)])
             end = min([end, *(q for q in breaks if q >= high)])
-        require_passage([self._paths.track(u, until) for u in (v, a, b)], until, end)
+        tracks = [tuple(map(Poly, self._paths.track(u, until))) for u in (v, a, b)]
+        require_passage(tracks, until, end)  # type: ignore[arg-type]
         return f"cross {until} {end} {v} {item}"
 
 
@@ -308,13 +307,12 @@ def _candidates(
     one: Sequence[int],
     other: Sequence[int],
     items: Sequence[tuple[int, int, int]],
-    place: Mapping[int, tuple[Fraction, Fraction]],
+    place: Mapping[int, Whole],
     far: float,
 ) -> list[tuple[int, int]]:
     """Return pairs of items whose boxes come near each other, by doubles; the nearest first."""
-    ends = [
-        np.array([[place[v] for v in items[k][1:]] for k in some], float) for some in (one, other)
-    ]
+    at = {v: (x / w, y / w) for v, (x, y, w) in place.items()}
+    ends = [np.array([[at[v] for v in items[k][1:]] for k in some]) for some in (one, other)]
     low, high = ([e.min(axis=1) for e in ends], [e.max(axis=1) for e in ends])
     gaps = np.maximum(low[0][:, None] - high[1], low[1] - high[0][:, None]).clip(0)
     apart = np.hypot(gaps[..., 0], gaps[..., 1])

@@ -16,7 +16,7 @@ from exactpt import Body, Rigid, Scene, Translation, check_apart, proof_check
 from exactpt.cli import cli
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.proof import certify_rows
-from exactpt.proof.apart import Paths
+from exactpt.proof.paths import Paths
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, SPINNING, generate
 
 ROOT = Path(check_apart.__file__).parent.parent
@@ -85,7 +85,7 @@ def test_items_are_numbered_alike():
             continue
         read = check_apart.Scene(exactpt.proof.emit.scene_bytes(scene).decode())
         items = [(i, *d) for i, b in enumerate(read.bodies) for d in b.edges or [(b.first,) * 2]]
-        assert Paths(scene.bodies).items == items
+        assert Paths(scene.bodies, Fraction(0)).items == items
 
 
 def test_a_contact_is_enclosed_within_a_millionth():
