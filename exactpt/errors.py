@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -83,8 +83,11 @@ class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
     """A limit on events, time or memory was reached.
 
     ``reached`` is a rational time: there is no contact in the closed interval from the start
-    of the scene to it. It is None if nothing has been proved.
+    of the scene to it. It is None if nothing has been proved. ``answer`` has the first contact, or
+    None, if that was found, but no certificate of it.
     """
+
+    answer: tuple[Any] | None = None
 
     def __init__(self, message: str, reached: Fraction | None) -> None:
         super().__init__(message, reached)  # both are needed to restore a pickled error

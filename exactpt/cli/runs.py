@@ -166,6 +166,7 @@ def _first_contact(
     given: Scene | None = None
     search: Search | None = None
     answer: dict[str, object] = {"contact": None}
+    uncertified: BudgetExceeded | None = None
     try:
         with time_limit(question.max_seconds, max_memory()):
             given = load(path, until, since)
@@ -174,7 +175,12 @@ def _first_contact(
                 question = question._replace(scene_file=path.read_bytes())
             search = search_for(given, question)
             answer["tiling"] = search.name
-            contact = search.run_to_contact()
+            try:
+                contact = search.run_to_contact()
+            except BudgetExceeded as spent:
+                if spent.answer is None:
+                    raise
+                (contact,), uncertified = spent.answer, spent
             stated = contact and contact.to_json()
             lines = answer_in_words(given, contact, "new " if question.after_start else "")
     except BudgetExceeded as spent:
@@ -188,11 +194,14 @@ def _first_contact(
         raise
     if as_json:
         answer |= {"contact": stated, "stats": search.stats}
+        answer |= {"certificate": None} if uncertified else {}
         click.echo(json.dumps(answer, indent=1))
     else:
         print_output(*lines)
         if stats:
             print_output(*stats_in_words(search.stats))
+    if uncertified is not None:
+        raise uncertified
     return contact
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import shlex
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -103,27 +105,6 @@ def _write_checker(ctx: click.Context, option: click.Parameter, path: Path | Non
     ctx.exit()
 
 
-def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> int:
-    """Have both checkers verify the proofs of a run; their statements must be equal."""
-    from exactpt import proof_check
-    from exactpt.cgal import check_proofs
-
-    try:
-        by_python: str = proof_check.check_chain(folder)
-    except proof_check.Rejected as rejected:
-        by_python = str(rejected)
-    except proof_check.NoProofError as refused:
-        raise InputError(f"{folder}: {refused}") from None
-    except proof_check.Exhausted as exhausted:
-        raise BudgetExceeded(str(exhausted), None) from None
-    verdict = check_proofs(folder, max_seconds=max_seconds)
-    accepted = by_python.startswith("accepted: ")
-    agree = by_python == verdict.line if accepted else not verdict.accepted
-    if not quiet:
-        print_output(by_python, f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
-    return 0 if accepted and agree else 1
-
-
 def _begins_as_certificate(path: Path) -> bool:
     """Return True for a file, not a pipe, that exactpt collide --certificate has written."""
     if not path.is_file():
@@ -132,23 +113,43 @@ def _begins_as_certificate(path: Path) -> bool:
         return file.read(13) == b"exactpt-apart"
 
 
-def _check_certificate(path: Path, *, quiet: bool) -> int:
-    """Check a certificate of the scene beside it."""
-    from exactpt import check_apart
+def _check_by_both(path: Path, *, quiet: bool, max_seconds: float | None) -> int:
+    """Have two checkers verify the proofs in a folder, or a certificate; they must agree.
+
+    Where cgal_check is not installed, a certificate is verified by one.
+    """
+    from exactpt import check_apart, proof_check
+    from exactpt.cgal import check_proof, check_proofs, find_program
     from exactpt.files import read_bytes
     from exactpt.proof.emit import beside
 
+    checker: Any = proof_check if path.is_dir() else check_apart
     try:
-        verdict, code = str(check_apart.check(read_bytes(beside(path)), read_bytes(path))), 0
-    except check_apart.Rejected as rejected:
-        verdict, code = str(rejected), 1
-    except check_apart.NoProofError as refused:
+        if path.is_dir():
+            by_python = str(checker.check_chain(path))
+        else:
+            by_python = str(checker.check(read_bytes(beside(path)), read_bytes(path)))
+    except checker.Rejected as rejected:
+        by_python = str(rejected)
+    except checker.NoProofError as refused:
         raise InputError(f"{path}: {refused}") from None
-    except check_apart.Exhausted as exhausted:
+    except checker.Exhausted as exhausted:
         raise BudgetExceeded(str(exhausted), None) from None
+    accepted, lines, agree = by_python.startswith("accepted: "), [by_python], True
+    try:
+        find_program()
+    except InputError as missing:
+        if path.is_dir():
+            raise
+        print_error(f"verified by one checker: {missing}")
+    else:
+        check = check_proofs if path.is_dir() else partial(check_proof, beside(path))
+        verdict = check(path, max_seconds=max_seconds)
+        agree = by_python == verdict.line if accepted else not verdict.accepted
+        lines.append(f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
     if not quiet:
-        print_output(verdict)
-    return code
+        print_output(*lines)
+    return 0 if accepted and agree else 1
 
 
 @click.command()
@@ -196,7 +197,7 @@ def check(
 
     Of a folder that exactpt simulate --proof has written: have two checkers verify its proofs,
     and that each part goes on where the one before ends. Of a certificate that exactpt collide
-    --certificate has written, with FILE.scene.json beside it: check it, and print its statement.
+    --certificate has written, with FILE.scene.json beside it: have both verify it.
 
     \b
     Examples:
@@ -215,12 +216,9 @@ def check(
     """
     from exactpt.check import check_scene
 
-    if scene.is_dir():
+    if scene.is_dir() or _begins_as_certificate(scene):
         with time_limit(max_seconds, max_memory()):
-            return _check_folder(scene, quiet=quiet, max_seconds=max_seconds)
-    if _begins_as_certificate(scene):
-        with time_limit(max_seconds, max_memory()):
-            return _check_certificate(scene, quiet=quiet)
+            return _check_by_both(scene, quiet=quiet, max_seconds=max_seconds)
     try:
         with time_limit(max_seconds, max_memory()):
             given = load(scene)

@@ -161,7 +161,11 @@ class CertifiedSearch:
     def run_to_contact(self) -> Contact | None:
         """Write the certificate, and return the first contact, or None. Raises: as `certify`."""
         found = self._search.run_to_contact()
-        text = self._made.text(found, self._made.start, self._made.end)
+        try:
+            text = self._made.text(found, self._made.start, self._made.end)
+        except BudgetExceeded as spent:
+            spent.answer = (found,)
+            raise
         write_atomically(beside(self._path), self._file)
         write_atomically(self._path, text)
         return found

