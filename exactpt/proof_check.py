@@ -422,7 +422,7 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     n, d, k = t.numerator, t.denominator, max(map(len, polynomials))
     if (n | d) >> 64:
         longest = max(map(most_words, polynomials))
-        WORK.spend(len(polynomials) * k**2 * words(t) * (k * words(t) + longest))
+        WORK.spend(len(polynomials) * k**2 * words(d) * (k * words(n) + longest))
     powers = [n**i * d ** (k - 1 - i) for i in range(k)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
     WORK.spend(k * sum(map(words, found)))
