@@ -18,7 +18,7 @@ from mypy_extensions import i32, i64
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.doubles import items
+from exactpt.kernel.doubles import items, native
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
@@ -139,7 +139,7 @@ class Vertices:
         motions = self.enclosures.begin_linear(rows.velocities, rows.error)
         first, sizes = rows.offsets[:-1], np.diff(rows.offsets)
         ids = np.arange(len(rows.indices), dtype=np.int32)
-        owners = np.repeat(np.arange(len(bodies), dtype=np.int32), sizes)
+        owners = np.repeat(np.arange(len(bodies), dtype=np.int32), native(sizes))
         places = np.zeros((len(ids), int(WIDTH)))
         places[:, :4] = rows.coefficients
         places[:, HORIZON], places[:, MOTION] = INFINITY, motions[owners]
