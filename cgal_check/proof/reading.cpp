@@ -66,6 +66,18 @@ void check_degree(std::size_t degree) {
   if (degree > most_degree) throw NoProof("the scene has a coordinate of a degree above 64");
 }
 
+// The value at a time; counts as many products as its numbers get long.
+Rational value_at(const Rationals& f, const Rational& t) {
+  const auto words = [](const Rational& q) {
+    return static_cast<double>(mpz_size(q.get_num_mpz_t()) + mpz_size(q.get_den_mpz_t()));
+  };
+  const double n = static_cast<double>(f.size());
+  double most = n * words(t);
+  for (const Rational& c : f) most = std::max(most, n * words(t) + words(c));
+  spend(n * (100 + most * most / 4));
+  return value(f, t);
+}
+
 // A motion by one formula: of a rest position, the path.
 struct Motion {
   Rationals a, b, c, d;  // the matrix
@@ -80,8 +92,8 @@ struct Motion {
   // The map at a time: a, b, c, d, x, y divided by w.
   std::vector<Rational> at(const Rational& t) const {
     std::vector<Rational> values;
-    const Rational unit = value(w, t);
-    for (const Rationals* f : {&a, &b, &c, &d, &x, &y}) values.push_back(value(*f, t) / unit);
+    const Rational unit = value_at(w, t);
+    for (const Rationals* f : {&a, &b, &c, &d, &x, &y}) values.push_back(value_at(*f, t) / unit);
     return values;
   }
 };
@@ -347,7 +359,7 @@ std::vector<Ring> rings(const Json& json, const Body& body, bool is_closed) {
 
 std::vector<Place> places(const Shape& shape, const Rational& t) {
   std::vector<Place> result;
-  for (const auto& [x, y] : shape) result.emplace_back(value(x, t), value(y, t));
+  for (const auto& [x, y] : shape) result.emplace_back(value_at(x, t), value_at(y, t));
   return result;
 }
 

@@ -97,6 +97,10 @@ int Body::around(int v, int step) const {
 
 Place place(const Path& path, const Rational& t) {
   const auto at = [&](const Poly<Integer>& f) {
+    const double n = static_cast<double>(f.size());
+    const double most = n * static_cast<double>(mpz_size(t.get_num_mpz_t()) + mpz_size(t.get_den_mpz_t())) +
+                        (f.empty() ? 0 : static_cast<double>(mpz_size(longest(f)->get_mpz_t())));
+    spend(n * (100 + most * most / 4));
     Rational sum = 0;
     for (std::size_t i = f.size(); i-- > 0;) sum = sum * t + Rational(f[i]);
     return sum;

@@ -3,11 +3,12 @@
 import hashlib
 import json
 import subprocess
+from fractions import Fraction
 
 import pytest
 from click.testing import CliRunner
 
-from exactpt import Body, Scene, check_apart, first_contact, proof_check, prove
+from exactpt import Body, Rigid, Scene, check_apart, first_contact, proof_check, prove
 from exactpt.cli import cli
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 
@@ -142,6 +143,17 @@ def test_bug_long_times_and_high_degrees_are_counted(program, tmp_path):
     scene = Scene([body, Body("b", [(1, 0)]), Body("c", [(0, 1)])], (0, 1))
     lines = ["apart", "span 0 1", f"t 1{'0' * 8999}7/1{'0' * 9000}9", "c 1 0 5", "c 1 0 5", "none"]
     assert run_both(program, tmp_path, scene, lines) == (4, 4)
+
+
+def test_bug_values_at_long_times_are_counted(program, tmp_path):
+    """The scene begins at a long time: with 9,000 digits, its reader in C++ took 19 s."""
+    start, end = Fraction(10**4199 + 7, 10**4200 + 9), 1
+    bodies = [
+        Body("a", [(0, 0), (1, 0), (0, 1)], Rigid([1, *[0] * 31, 10**4199])),
+        Body("b", [(9, 0), (10, 0), (9, 1)]),
+    ]
+    lines = ["apart", f"span {start} 1", "c 1 0 5", "none"]
+    assert run_both(program, tmp_path, Scene(bodies, (start, end)), lines) == (4, 4)
 
 
 def test_bug_pieces_of_many_vertices_are_counted(program, tmp_path):
