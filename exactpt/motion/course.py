@@ -88,7 +88,7 @@ class Piece:
     def straight_x(self, vertex: int) -> tuple[QQ, QQ] | None:
         """Return the coefficients of x = x0 + x1 t of a vertex, without its trajectory.
 
-        None if the motion is no linear translation of positions that doubles hold.
+        None if the motion is not a linear translation of positions that doubles hold.
         """
         moved = self.translation
         if moved is None or not moved[0].is_exact:

@@ -121,7 +121,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
     most = _SLOTS * (len(vertices.all) + 1)
     for slot, time in data["queue"]:
         if not 0 <= slot < most:
-            raise InputError(f"{shorten(slot)} is no certificate")
+            raise InputError(f"not a certificate: {shorten(slot)}")
         kinetic.queue.schedule(slot, _time_from_json(time))
     return kinetic
 

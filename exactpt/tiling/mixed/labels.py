@@ -104,7 +104,7 @@ class LabelledMesh(Mesh):
                 break
             if node not in self.labels[h]:
                 return path
-        raise AuditError(f"the geodesic of node {node} is no path")
+        raise AuditError(f"the geodesic of node {node} is not a path")
 
     def _clockwise(self, first: HalfEdge, node: int, last: HalfEdge) -> HalfEdge:
         """Return the first half-edge clockwise whose label has the node, or ``last``."""
@@ -214,6 +214,6 @@ class LabelledMesh(Mesh):
             if self.map.origin[h] < 0:
                 continue
             if not self.forest.is_path(self.labels[h]):
-                raise AuditError(f"label {sorted(self.labels[h])} is no path of ancestors")
+                raise AuditError(f"label {sorted(self.labels[h])} is not a path of ancestors")
             if self.region[h] == FREE and self.node(h) != self.node(self.map.following[h]):
                 raise AuditError(f"half-edge {h} and the next one belong to different nodes")
