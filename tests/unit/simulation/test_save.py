@@ -226,7 +226,7 @@ def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
     forged = changed(data, ("state", "queue", 0, 0), slot)
     (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
 
-    with pytest.raises(InputError, match=r"run\.json: .*is no certificate"):
+    with pytest.raises(InputError, match=r"run\.json: .*not a certificate"):
         Simulation.restore(tmp_path / "run.json")
 
 
