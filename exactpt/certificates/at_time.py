@@ -107,7 +107,7 @@ class PredicatesAt(Predicates):
             self._exact[v] = found
         return found
 
-    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+    def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right)."""
         x, y = self._x, self._y
         ax, ay = x[a], y[a]
@@ -161,7 +161,7 @@ class PredicatesAt(Predicates):
         ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
-        s = 0 if are_copies else self._places.turn(a, b, a, c)
+        s = 0 if are_copies else self._places.cross_sign(a, b, a, c)
         if s in (1, -1):
             self._counters.filtered += 1
             return s
@@ -266,7 +266,7 @@ class PredicatesAt(Predicates):
         near = nearest_float((ay - by) / (bx - ax) * power_of_two(scale[0] - scale[1])) * STEPS
         return near if isinf(near) else near // 1.0
 
-    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+    def cross_sign(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         now = self.turn_now(a, b, c, d)
         if now or not self.after:
@@ -282,7 +282,7 @@ class PredicatesAt(Predicates):
             if now:
                 self._counters.filtered += 1
                 return now
-        now = self._places.turn(a, b, c, d)
+        now = self._places.cross_sign(a, b, c, d)
         if now != NOT_EXACT:
             self._counters.filtered += 1
             return now

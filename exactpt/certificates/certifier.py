@@ -13,7 +13,7 @@ import numpy as np
 from mypy_extensions import i64
 
 from exactpt.certificates import coefficients
-from exactpt.certificates.batches import linear_orientations
+from exactpt.certificates.linear_vectorized import linear_orientations
 from exactpt.certificates.moment import Moment, Numbered, exact_time
 from exactpt.certificates.perturbation import orientation, x_order
 from exactpt.certificates.positions import Positions

@@ -61,7 +61,7 @@ def orientation(
             bounds = errors, now_low, now_high, horizon, at_root
             return _three(ux0, uy0, ux1, uy1, vx0, vy0, vx1, vy1, *bounds)
         elif a.degree <= 3 and b.degree <= 3 and c.degree <= 3:
-            return cubics.three(a, b, c, errors, now_low, now_high, horizon, at_root)
+            return cubics.orientation(a, b, c, errors, now_low, now_high, horizon, at_root)
         else:
             return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and c.degree <= 1:
@@ -69,7 +69,7 @@ def orientation(
         wx, wy = c.x1 - a.x1, c.y1 - a.y1
         return _pair(ux, uy, vx, vy, wx, wy, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 3 and c.degree <= 3:
-        return cubics.pair(a, b, c, errors, now_low, now_high, horizon, at_root)
+        return cubics.orientation_same_motion(a, b, c, errors, now_low, now_high, horizon, at_root)
     return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
 
 

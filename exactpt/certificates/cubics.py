@@ -22,7 +22,7 @@ from exactpt.motion.image import Image
 K: Final = 8.0 * U
 
 
-def three(
+def orientation(
     a: Image,
     b: Image,
     c: Image,
@@ -97,7 +97,7 @@ def three(
     )
 
 
-def pair(
+def orientation_same_motion(
     a: Image,
     b: Image,
     c: Image,

@@ -37,7 +37,7 @@ class ExactPlaces:
         self._are_exact: bool = are_exact
         self._after: bool = after
 
-    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+    def cross_sign(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """Return the sign of (b - a) x (d - c) at the instant; `NOT_EXACT` if it is not certain."""
         if not self._are_exact:
             return NOT_EXACT

@@ -26,12 +26,12 @@ class OneSided(Predicates):
         self._all: VertexList = certifier.all
         self._before: bool = before
 
-    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+    def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if they turn right, 0 if always collinear (counts as -1)."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
         if not certifier.exact_only:
-            s = certifier.positions.sign(va, vb, vc)
+            s = certifier.positions.orientation(va, vb, vc)
             if s:
                 certifier.counters.filtered += 1
                 return s
@@ -71,13 +71,13 @@ class OneSided(Predicates):
                 return s > 0
         return self._exact(x_order(va, vb), va, vb) > 0
 
-    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+    def cross_sign(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         certifier = self._certifier
         v = self._all
         p, q, r, t = v[a], v[b], v[c], v[d]
         if not certifier.exact_only:
-            s = certifier.positions.turn(p, q, r, t) or self._turn_at_end(a, b, c, d)
+            s = certifier.positions.cross_sign(p, q, r, t) or self._turn_at_end(a, b, c, d)
             if s:
                 certifier.counters.filtered += 1
                 return s

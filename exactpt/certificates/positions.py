@@ -102,7 +102,7 @@ class Positions:
             y, dy = _quotient(y, dy, w, dw)
         vertex.x, vertex.y, vertex.error = x, y, min(INFINITY, max(dx, dy))
 
-    def sign(self, a: Vertex, b: Vertex, c: Vertex) -> int:
+    def orientation(self, a: Vertex, b: Vertex, c: Vertex) -> int:
         """Return the sign of the orientation now, or 0 if it is not certain.
 
         With errors of the coordinates of at most da, db, dc, those of the differences
@@ -120,7 +120,7 @@ class Positions:
         x, y, d = a.x, a.y, a.error
         return cross_sign(b.x - x, b.y - y, d + b.error, c.x - x, c.y - y, d + c.error)
 
-    def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
+    def cross_sign(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
         """Return the sign of (b - a) x (d - c) now, or 0 if it is not certain."""
         self.find(a)
         self.find(b)

@@ -14,7 +14,7 @@ class Predicates:
     """Signs at a time, just after it, or just before it."""
 
     @abstractmethod
-    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+    def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if they turn right, 0 if always collinear (counts as -1)."""
 
     @abstractmethod
@@ -22,7 +22,7 @@ class Predicates:
         """Return True if a is left of b."""
 
     @abstractmethod
-    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+    def cross_sign(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
 
     @abstractmethod

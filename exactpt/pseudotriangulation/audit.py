@@ -20,7 +20,11 @@ def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
     m = mesh.map
     for h in m.half_edges():
         a, p, b = m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
-        if mesh.region[h] != SOLID and a != b and (predicates.sign(a, p, b) > 0) != mesh.corner[h]:
+        if (
+            mesh.region[h] != SOLID
+            and a != b
+            and (predicates.orientation(a, p, b) > 0) != mesh.corner[h]
+        ):
             raise AuditError(f"angle {h} at vertices {a}, {p}, {b} is not as marked")
     for h in mesh.ring_edges():
         audit_star(mesh, h, predicates)
@@ -40,6 +44,6 @@ def audit_star(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> None:
     base = targets[0]
     for u, w in pairwise(targets[1:]):
         # Angle from the first half-edge: 1 if below pi, 0 if pi, -1 if above.
-        side_u, side_w = predicates.sign(v, base, u), predicates.sign(v, base, w)
-        if side_u < side_w or (side_u == side_w and predicates.sign(v, u, w) <= 0):
+        side_u, side_w = predicates.orientation(v, base, u), predicates.orientation(v, base, w)
+        if side_u < side_w or (side_u == side_w and predicates.orientation(v, u, w) <= 0):
             raise AuditError(f"vertex {v}: the edges to {u} and {w} are in the wrong order")

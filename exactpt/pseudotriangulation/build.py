@@ -154,13 +154,13 @@ class _Around:
         if below != other:
             return other - below
         target = self._map.target
-        return -self._predicates.sign(self._center, target(g), target(h))
+        return -self._predicates.orientation(self._center, target(g), target(h))
 
     def _half(self, h: HalfEdge) -> int:
         """1 if the angle from the reference is below pi, 0 if pi, -1 if above."""
         known = self._halves.get(h)
         if known is None:
-            known = self._predicates.sign(self._center, self._base, self._map.target(h))
+            known = self._predicates.orientation(self._center, self._base, self._map.target(h))
             self._halves[h] = known
         return known
 

@@ -57,7 +57,7 @@ def _angle(mesh: Mesh, h: HalfEdge) -> Triple:
 def _has_closed(mesh: Mesh, h: HalfEdge, instant: PredicatesAt) -> bool:
     a, p, b = _angle(mesh, h)
     may_close = mesh.region[h] in (FREE, INSIDE) and mesh.corner[h] and a != b
-    return may_close and instant.sign(a, p, b) <= 0
+    return may_close and instant.orientation(a, p, b) <= 0
 
 
 def _first(mesh: Mesh, closed: set[HalfEdge], instant: PredicatesAt) -> HalfEdge:

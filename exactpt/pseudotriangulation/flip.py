@@ -29,7 +29,9 @@ def flip(
     e = mesh.flip_in(g, k)
     changed = [e, twin(e), g, k, *[a for a in joined if a not in visits]]
     for a in changed:
-        mesh.corner[a] = predicates.sign(m.origin[m.previous[a]], m.origin[a], m.origin[a ^ 1]) > 0
+        mesh.corner[a] = (
+            predicates.orientation(m.origin[m.previous[a]], m.origin[a], m.origin[a ^ 1]) > 0
+        )
     if was_triangle:
         changed += [a for a in (*m.face(e), *m.face(twin(e))) if a not in changed]
     return changed
@@ -133,7 +135,7 @@ def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> b
         a, b = b, a
     if not predicates.left_of(c, d):
         c, d = d, c
-    turn = predicates.turn(a, b, c, d)
+    turn = predicates.cross_sign(a, b, c, d)
     if turn == 0:
         turn = _rise(mesh, c, d, predicates) - _rise(mesh, a, b, predicates)
     return turn < 0
@@ -148,4 +150,4 @@ def _side(mesh: Mesh, v: VertexId, a: VertexId, b: VertexId, predicates: Predica
     """1 if the body of v, an end of the bitangent ab, is on its left; -1 if on its right."""
     m = mesh.map
     neighbours = [m.target(h) for h in m.star(mesh.ring_edge[v]) if mesh.is_boundary(h)]
-    return next((s for n in neighbours if (s := predicates.sign(a, b, n))), 0)
+    return next((s for n in neighbours if (s := predicates.orientation(a, b, n))), 0)

@@ -46,7 +46,7 @@ def _is_ear(
     mesh: Mesh, rest: list[HalfEdge], before: HalfEdge, h: HalfEdge, predicates: Predicates
 ) -> bool:
     """Return True if the triangle at the origin of h lies inside and contains no other vertex."""
-    sign, origin = predicates.sign, mesh.map.origin
+    sign, origin = predicates.orientation, mesh.map.origin
     a, b, c = origin[before], origin[h], origin[h ^ 1]
     if sign(a, b, c) <= 0:
         return False

@@ -104,7 +104,7 @@ class Sweep:
         """Return edges with a common left end, sorted from bottom to top."""
 
         def order(a: SweptEdge, b: SweptEdge) -> int:
-            return -self.predicates.sign(a.left, a.right, b.right)
+            return -self.predicates.orientation(a.left, a.right, b.right)
 
         return sorted(edges, key=cmp_to_key(order)) if len(edges) > 1 else edges
 
@@ -140,7 +140,7 @@ class Sweep:
         while low < high:
             middle = (low + high) // 2
             edge = self.active[middle]
-            if edge.right != v and self.predicates.sign(edge.left, edge.right, v) > 0:
+            if edge.right != v and self.predicates.orientation(edge.left, edge.right, v) > 0:
                 low = middle + 1
             else:
                 high = middle
@@ -156,7 +156,7 @@ class Sweep:
 
     def _sees(self, v: VertexId, chain: list[VertexId], i: int) -> bool:
         """Return True if v sees edge i of a chain: it lies to the right of the edge, going up."""
-        return self.predicates.sign(chain[i], chain[i + 1], v) < 0
+        return self.predicates.orientation(chain[i], chain[i + 1], v) < 0
 
     def _split_chain(
         self, v: VertexId, chain: list[VertexId], region: int

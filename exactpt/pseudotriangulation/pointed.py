@@ -148,7 +148,9 @@ def _corners_after_removal(
         # At the origin of g: the angles of g and of the half-edge after its twin.
         before, after = m.previous[g], m.following[g ^ 1]
         a, p, b = m.origin[before], m.origin[g], m.target(after)
-        joined = a != b and predicates.sign(a, p, b) > 0 and mesh.corner[g] and mesh.corner[after]
+        joined = (
+            a != b and predicates.orientation(a, p, b) > 0 and mesh.corner[g] and mesh.corner[after]
+        )
         marks.append(joined)
         lost += mesh.corner[g] + mesh.corner[after] - joined
     return (marks[0], marks[1]) if lost == 3 else None
@@ -173,7 +175,7 @@ def _needless_diagonals(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> 
             ):
                 # A face of the whole sector would pass v from the far edge h to the near one.
                 a, b = m.target(h), m.target(sector[0])
-                if a == b or predicates.sign(a, v, b) <= 0:
+                if a == b or predicates.orientation(a, v, b) <= 0:
                     return diagonals
             sector = []
         sector.append(h)

@@ -178,7 +178,7 @@ class Region:
             angle = self._angle(h)
             if h not in self._before or self._before[h].ends != angle.ends:
                 a, p, b = angle.ends
-                mesh.corner[h] = a == b or predicates.sign(a, p, b) > 0
+                mesh.corner[h] = a == b or predicates.orientation(a, p, b) > 0
         seen: set[HalfEdge] = set()
         for h in inside:
             if h not in seen:

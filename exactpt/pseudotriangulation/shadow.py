@@ -113,13 +113,13 @@ def _step(
     """
     origin = mesh.map.origin
     x, after, before = origin[i], origin[i ^ 1], origin[visit_before(mesh, h, i)]
-    if distance >= 0 and y != after and predicates.sign(x, after, y) <= 0:
+    if distance >= 0 and y != after and predicates.orientation(x, after, y) <= 0:
         return 1
-    if distance <= 0 and y != before and predicates.sign(x, y, before) <= 0:
+    if distance <= 0 and y != before and predicates.orientation(x, y, before) <= 0:
         return -1
-    if distance > 0 and moved <= 0 and predicates.sign(x, y, before) > 0:
+    if distance > 0 and moved <= 0 and predicates.orientation(x, y, before) > 0:
         return -1
-    if distance < 0 and moved >= 0 and predicates.sign(x, y, after) < 0:
+    if distance < 0 and moved >= 0 and predicates.orientation(x, y, after) < 0:
         return 1
     return 0
 
@@ -128,9 +128,9 @@ def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Pred
     """Return True if segments xy and uv cross in their interiors, or share one end."""
     if x in (u, v) or y in (u, v):
         return not ((x == u and y == v) or (x == v and y == u))
-    if predicates.sign(x, y, u) == predicates.sign(x, y, v):
+    if predicates.orientation(x, y, u) == predicates.orientation(x, y, v):
         return False
-    return predicates.sign(u, v, x) != predicates.sign(u, v, y)
+    return predicates.orientation(u, v, x) != predicates.orientation(u, v, y)
 
 
 def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Predicates) -> bool:
@@ -158,7 +158,7 @@ def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Pr
     after, before = origin[i ^ 1], origin[visit_before(mesh, h, i)]
     if y in (x, after, before):
         return False
-    first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
+    first, second = predicates.orientation(x, after, y), predicates.orientation(x, y, before)
     if first > 0 and second > 0:
         return is_corner_without(mesh, h, i, predicates)
     return first * second < 0 and not is_corner_without(mesh, h, i, predicates)
@@ -189,7 +189,7 @@ def is_corner_without(mesh: Mesh, h: HalfEdge, visit: HalfEdge, predicates: Pred
     m = mesh.map
     if visit == m.following[h] or visit == m.following[h ^ 1]:
         before = m.origin[visit_before(mesh, h, visit)]
-        return predicates.sign(before, m.origin[visit], m.origin[visit ^ 1]) > 0
+        return predicates.orientation(before, m.origin[visit], m.origin[visit ^ 1]) > 0
     return mesh.corner[visit]
 
 

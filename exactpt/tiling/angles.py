@@ -28,7 +28,7 @@ from exactpt.motion.vertices import MOTION as MOTION_OF
 from exactpt.motion.vertices import OTHER_MOTION, WIDTH, Vertices
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
-from exactpt.tiling.simultaneous import Batch
+from exactpt.tiling.simultaneous import FailureGroup
 
 MANY: Final = 50
 """Number of angles from which on they are certified in numpy."""
@@ -78,7 +78,7 @@ class CertifiedMesh(Angles):
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
         table.pending.angles = self
-        self.batch: Batch = Batch()
+        self.failure_group: FailureGroup = FailureGroup()
         self.checks_rigid: bool = False
         self._after: OneSided = OneSided(certifier, before=False)
         self._todo: vec[HalfEdge] = half_edge_vec([NO_HALF_EDGE] * MOST_OF_FIVE)
@@ -170,7 +170,7 @@ class CertifiedMesh(Angles):
         if self.checks_rigid and self.mesh.region[h] != SOLID:
             a, p, b = self.angle(h)
             if self.certifier.rigid(a, p, b) and (
-                (self.after().sign(a, p, b) > 0) != self.mesh.corner[h]
+                (self.after().orientation(a, p, b) > 0) != self.mesh.corner[h]
             ):
                 self.table.angles.add(h)
 
@@ -192,7 +192,7 @@ class CertifiedMesh(Angles):
     def recertify(self, half_edges: list[HalfEdge]) -> None:
         """Certify changed angles, and all angles of faces that are or were triangles."""
         following = self.mesh.map.following
-        self.batch.touch(half_edges)
+        self.failure_group.touch(half_edges)
         todo: dict[HalfEdge, None] = {}
         for h in half_edges:
             todo[h] = None
@@ -312,7 +312,7 @@ class CertifiedMesh(Angles):
         """Return True if the angle of h is flat (of one rigid body it is not in the table)."""
         a, p, b = self.angle(h)
         return h in self.table.flat or (
-            a != b and self.certifier.rigid(a, p, b) and self.after().sign(a, p, b) == 0
+            a != b and self.certifier.rigid(a, p, b) and self.after().orientation(a, p, b) == 0
         )
 
     # Bodies

@@ -146,7 +146,7 @@ class Engine(Tiling):
         certified, first = self.certified, entries[0][0]
         self.table.angles.clear()
         self.clock.enter(time, entries)
-        certified.batch.clear()
+        certified.failure_group.clear()
         is_alone = len(entries) == 1 and time.crossing and kind_of(first) == ANGLE
         try:
             h = HalfEdge(part_of(first))
@@ -201,7 +201,7 @@ class Engine(Tiling):
         shrinking = [part_of(c) for c in failed if kind_of(c) == SHRINK]
         look_for_contact(certified, angles, shrinking)
         if moving:
-            certified.batch.has_new_motions = True
+            certified.failure_group.has_new_motions = True
             self.clock.forbid_retreat()
             angles += [h for i in moving for h in self._change_motion(i)]
         self.rules.failed([c for c in failed if kind_of(c) not in (ANGLE, MOTION, SHRINK)])
@@ -231,7 +231,7 @@ class Engine(Tiling):
             return None  # `tile_inside` is for one ring
         certified = self.certified
         self._begin_change(t)
-        certified.batch.has_new_motions = True
+        certified.failure_group.has_new_motions = True
         try:
             for i in sorted(plans):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
@@ -274,7 +274,7 @@ class Engine(Tiling):
         """Move to a rational time, at which nothing is violated, to change the tiling there."""
         self.clock.move_to(t)
         self.table.angles.clear()
-        self.certified.batch.clear()
+        self.certified.failure_group.clear()
         self.certified.checks_rigid = True
 
     def _end_change(self, *, was_possible: bool) -> list[TilingEvent]:

@@ -193,9 +193,9 @@ class IsolatedEvents:
             stats.most = max(stats.most, len(self._queue))
             return DONE
         changed = [e0, e1, e2, e3, e4]
-        certified.batch.clear()
-        certified.batch.begin_repair()
-        certified.batch.touch(changed)
+        certified.failure_group.clear()
+        certified.failure_group.begin_repair()
+        certified.failure_group.touch(changed)
         rules.changed(changed)
         return OPEN
 

@@ -46,20 +46,24 @@ class Repairs:
         Raises:
             RebuildNeeded: if that does not end in a pseudo-triangulation.
         """
-        table, batch, rules = self.certified.table, self.certified.batch, self._rules
+        table, failure_group, rules = (
+            self.certified.table,
+            self.certified.failure_group,
+            self._rules,
+        )
         rounds, most = 0, 64 + 4 * (len(table.pending) + len(table.angles))
         while table.angles or rules.is_violated():
             rounds += 1
             if rounds > most:
                 raise RebuildNeeded
-            batch.begin_repair()
+            failure_group.begin_repair()
             if table.angles:
                 self._repair(self.first_violated())
             else:
                 rules.repair()
-        if batch.needs_check(self.certified.mesh):
+        if failure_group.needs_check(self.certified.mesh):
             self.check_batch()
-        rules.restore()
+        rules.recanonicalize()
 
     def first_violated(self) -> HalfEdge:
         """Return the least violated angle; of copies, the first in the perturbed order."""
@@ -92,7 +96,7 @@ class Repairs:
         Raises:
             RebuildNeeded: if the mesh is not a pseudo-triangulation there.
         """
-        mesh, touched = self.certified.mesh, sorted(self.certified.batch.touched)
+        mesh, touched = self.certified.mesh, sorted(self.certified.failure_group.touched)
         m, after = mesh.map, self.certified.after()
         try:
             mesh.audit_faces(touched)

@@ -42,7 +42,7 @@ class Rules(Followers, ABC):
         slides_are_plain: whether a slide changes the mesh as `Mesh` itself does, so that
             isolated events are processed by `exactpt.tiling.isolated`. Set by the class.
         only_angles: whether nothing but certificates of angles follows from a slide; the methods
-            `changed`, `is_violated` and `restore` are then not called after isolated events.
+            `changed`, `is_violated` and `recanonicalize` are then not called after isolated events.
         certified: the mesh, with the certificates of its angles.
         log: the record of events.
     """
@@ -123,7 +123,7 @@ class Rules(Followers, ABC):
             RebuildNeeded: if these are not tiles of the canonical tiling.
         """
 
-    def restore(self) -> None:
+    def recanonicalize(self) -> None:
         """Make the tiling canonical again where it has changed; called when nothing is violated.
 
         Raises:

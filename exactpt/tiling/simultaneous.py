@@ -10,7 +10,7 @@ from exactpt.pseudotriangulation.mesh import Mesh
 
 
 @final
-class Batch:
+class FailureGroup:
     """The repairs at the current time.
 
     Repairs of different tiles are independent: their result is the same at one time as one

@@ -58,7 +58,7 @@ def _wrong_neighbour(
     a, b = line
     vertices = instant.vertices
     for n in (vertices.ahead(end), vertices.behind(end)):
-        s = side * instant.sign(a, b, n)
+        s = side * instant.orientation(a, b, n)
         if s < 0 or (s == 0 and instant.nearer(other, n, end)):
             return n
     return end

@@ -92,7 +92,7 @@ def is_above(predicates: Predicates, lower: Chain, v: VertexId) -> bool:
             low = middle
         else:
             high = middle
-    return predicates.sign(lower.vertex(low), lower.vertex(high), v) >= 0
+    return predicates.orientation(lower.vertex(low), lower.vertex(high), v) >= 0
 
 
 def near_tangent(predicates: Predicates, a: Chain, b: Chain, side_a: int, side_b: int) -> Ends:
@@ -117,7 +117,7 @@ def near_tangent(predicates: Predicates, a: Chain, b: Chain, side_a: int, side_b
         middle = (low + high) // 2
         v = a.vertex(middle)
         w = _seen_from(predicates, v, b, side_b)
-        if side_a * predicates.sign(v, w, a.vertex(middle + 1)) < 0:
+        if side_a * predicates.orientation(v, w, a.vertex(middle + 1)) < 0:
             low = middle + 1
         else:
             high = middle
@@ -130,7 +130,7 @@ def _seen_from(predicates: Predicates, v: VertexId, b: Chain, side: int) -> Vert
     low, high = 0, b.count - 1
     while low < high:
         middle = (low + high) // 2
-        if side * predicates.sign(v, b.vertex(middle), b.vertex(middle + 1)) < 0:
+        if side * predicates.orientation(v, b.vertex(middle), b.vertex(middle + 1)) < 0:
             low = middle + 1
         else:
             high = middle

@@ -63,7 +63,7 @@ class FlippingRules(Rules):
         after = PredicatesAt(vertices, instant.time)
         for v in deforming:
             ahead, behind = vertices.ahead(v), vertices.behind(v)
-            if instant.sign(ahead, v, behind) <= 0 < after.sign(ahead, v, behind):
+            if instant.orientation(ahead, v, behind) <= 0 < after.orientation(ahead, v, behind):
                 for h in mesh.map.star(mesh.ring_edge[v]):
                     visits = shadow(mesh, h, after) if mesh.is_flippable(h) else None
                     if visits is not None:
@@ -107,8 +107,8 @@ class FlippingRules(Rules):
             self._moved.append(HalfEdge(part_of(certificate)))
             self._shadows.fail(certificate)
 
-    def restore(self) -> None:
-        """See `Rules.restore`."""
+    def recanonicalize(self) -> None:
+        """See `Rules.recanonicalize`."""
         edges = self._edges_of_tiles(self._changed)
         marks, search = self._marks, self._searches
         for h in self._moved:

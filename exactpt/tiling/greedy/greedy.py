@@ -163,13 +163,13 @@ class VerticalRules(Rules):
             rising = False
             for handle in sorted(self.cells.violated_extremes):
                 if self.cells.is_rising(*self.cells.extreme_pair(handle)):
-                    self.certified.batch.begin_repair()
+                    self.certified.failure_group.begin_repair()
                     self._move_extreme(handle)
                     rising = True
                     break
             for cell in sorted(self.cells.violated):
                 if self.cells.is_rising(*self.cells.pair(cell)):
-                    self.certified.batch.begin_repair()
+                    self.certified.failure_group.begin_repair()
                     self._exchange(cell, before)
                     rising = True
                     break
@@ -278,7 +278,7 @@ class VerticalRules(Rules):
         a tile at u, and these are examined too.
         """
         mesh = self.certified.mesh
-        self.certified.batch.require_check(mesh.map.star(mesh.ring_edge[u]))
+        self.certified.failure_group.require_check(mesh.map.star(mesh.ring_edge[u]))
 
     def _flip(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge], predicates: OneSided) -> None:
         old = self.certified.mesh.ends(h)

@@ -65,11 +65,11 @@ class ShadowRules(FlippingRules):
         """See `Rules.turns_reflex`."""
         self._turned.add(self.certified.mesh.map.origin[h])
 
-    def restore(self) -> None:
-        """See `Rules.restore`."""
+    def recanonicalize(self) -> None:
+        """See `Rules.recanonicalize`."""
         if self._turned:
             self._make_pointed()
-        super().restore()
+        super().recanonicalize()
 
     def enter(self, i: int) -> None:
         """See `Rules.enter`."""

@@ -60,10 +60,10 @@ def facing_visit(
         p, after, before = m.origin[h], m.origin[h ^ 1], m.origin[m.previous[h]]
         if target in (after, before):
             continue
-        left = (side if after == known else predicates.sign(p, after, target)) > 0
+        left = (side if after == known else predicates.orientation(p, after, target)) > 0
         if mesh.corner[h] and not left:
             continue
-        known, side = before, predicates.sign(p, before, target)
+        known, side = before, predicates.orientation(p, before, target)
         if (left and side < 0) if mesh.corner[h] else (left or side < 0):
             return h
     return None
@@ -91,7 +91,7 @@ def _faces(mesh: Mesh, predicates: Predicates, h: HalfEdge, v: VertexId, *, up: 
     return (
         predicates.left_of(left, v)
         and predicates.left_of(v, right)
-        and predicates.sign(*mesh.ends(h), v) > 0
+        and predicates.orientation(*mesh.ends(h), v) > 0
     )
 
 
@@ -100,7 +100,7 @@ def _is_nearer(mesh: Mesh, predicates: Predicates, g: HalfEdge, h: HalfEdge) -> 
 
     They do not cross. An end of one is vertically above or below the other, and its side decides.
     """
-    left_of, sign = predicates.left_of, predicates.sign
+    left_of, sign = predicates.left_of, predicates.orientation
     (a, b), (c, d) = mesh.ends(g), mesh.ends(h)
     if left_of(b, a):
         a, b, c, d = b, a, d, c

@@ -59,7 +59,7 @@ class CertifiedTrees:
         if certifier.rigid(lo, mid, hi):
             # A sign that cannot change may be wrong in the midst of simultaneous repairs.
             certifier.skipped += 1
-            s, time = self.after.sign(lo, mid, hi), None
+            s, time = self.after.orientation(lo, mid, hi), None
         else:
             s, time = certifier.orientation(lo, mid, hi)
         if (s == (1 if side == UPPER else -1)) != turns_away:

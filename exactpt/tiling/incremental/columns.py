@@ -113,7 +113,7 @@ def _sweep(
                 previous = hull[-2]
             else:
                 previous = left if hull else tree.parent[left] if left >= 0 else NONE
-            if previous < 0 or predicates.sign(previous, last, p) != wanted:
+            if previous < 0 or predicates.orientation(previous, last, p) != wanted:
                 break
             if hull:
                 hull.pop()

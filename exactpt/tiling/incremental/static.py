@@ -38,7 +38,7 @@ def holds_at(structure: IncrementalStructure, instant: PredicatesAt) -> bool:
             if certificate is None:
                 continue
             *points, turns_away = certificate
-            s = instant.sign(*points)
+            s = instant.orientation(*points)
             if (s == wanted) != turns_away:
                 if s:
                     raise AuditError(f"points {points} turn the wrong way")

@@ -99,7 +99,7 @@ class IncrementalStructure:
         for wanted, tree in zip((1, -1), trees, strict=True):
             hull = order[:1]
             for p in order[1:]:
-                while len(hull) > 1 and predicates.sign(hull[-2], hull[-1], p) == wanted:
+                while len(hull) > 1 and predicates.orientation(hull[-2], hull[-1], p) == wanted:
                     hull.pop()
                 tree.append(hull[-1], p)
                 hull.append(p)
@@ -243,7 +243,7 @@ class IncrementalStructure:
         if start < 0:
             tree.append(q, p)
             return NONE, [c for c in (p, q, tree.last[p]) if c >= 0]
-        sign, wanted = predicates.sign, 1 if side == UPPER else -1
+        sign, wanted = predicates.orientation, 1 if side == UPPER else -1
         end = tree.tangent_end(
             p, self.order[self.rank[p] - 1], lambda z, w: sign(z, w, q) == wanted
         )

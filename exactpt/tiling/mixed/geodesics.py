@@ -191,7 +191,7 @@ class Geodesics:
         """
         if p == q:
             return 0
-        s = self._predicates.sign(apex, p, q)
+        s = self._predicates.orientation(apex, p, q)
         if s == 0:
             s = side_p if self._predicates.nearer(apex, p, q) else -side_q
         return s

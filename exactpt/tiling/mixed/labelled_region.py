@@ -183,7 +183,7 @@ class LabelledRegion(Region):
                 face = m.face(h)
                 seen.update(face)
                 is_outer = around == FREE and (
-                    len(face) != 3 or predicates.sign(*(m.origin[g] for g in face)) <= 0
+                    len(face) != 3 or predicates.orientation(*(m.origin[g] for g in face)) <= 0
                 )
                 for g in face:
                     mesh.region[g] = OUTER if is_outer else FREE
@@ -230,7 +230,7 @@ class LabelledRegion(Region):
 
     def _is_taut(self, predicates: Predicates, a: VertexId, v: VertexId, b: VertexId) -> bool:
         """Return True if a path a v b bends around the body of v, or is straight for all times."""
-        s = 0 if a == b else predicates.sign(a, v, b)
+        s = 0 if a == b else predicates.orientation(a, v, b)
         if s == 0:
             return a != b and predicates.nearer(a, v, b)
         # The body is on the left of the edge ahead.
@@ -238,8 +238,8 @@ class LabelledRegion(Region):
         ahead = self.mesh.map.target(self.mesh.ring_edge[v])
         return ahead == right or (
             ahead != left
-            and predicates.sign(v, right, ahead) >= 0
-            and predicates.sign(v, ahead, left) >= 0
+            and predicates.orientation(v, right, ahead) >= 0
+            and predicates.orientation(v, ahead, left) >= 0
         )
 
     def _beside(self, before: HalfEdge, after: HalfEdge) -> list[HalfEdge]:

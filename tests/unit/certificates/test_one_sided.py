@@ -45,7 +45,7 @@ def turns(bodies, triple, *, exact_only, before):
         for segments in [(p, q, p, r), (p, q, r, q), (p, q, r, p), (p, q, q, r)]
     ]
     asked = certifier.counters.exact
-    return [signs.turn(*four) for four in ends], certifier.counters.exact - asked
+    return [signs.cross_sign(*four) for four in ends], certifier.counters.exact - asked
 
 
 @pytest.mark.parametrize("before", [False, True])

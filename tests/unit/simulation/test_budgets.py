@@ -20,7 +20,7 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.simultaneous import Batch
+from exactpt.tiling.simultaneous import FailureGroup
 
 
 def of_degree(degree):
@@ -271,7 +271,7 @@ def test_collide_with_little_memory(tmp_path, capsys, all_of_them):
 
 def test_bug_repairs_without_end_are_ended_by_the_budget():
     """The exchanges of a forged vertical decomposition went on for ever."""
-    batch = Batch()
+    batch = FailureGroup()
 
     def repair():
         while True:

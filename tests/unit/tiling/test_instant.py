@@ -43,10 +43,10 @@ def test_signs_of_many_triples(moving, t, after):
     fast, exact = both(moving, t, after)
     triples = list(permutations([v.id for v in moving.all[:7]], 3))
 
-    expected = [exact.sign(*triple) for triple in triples]
+    expected = [exact.orientation(*triple) for triple in triples]
 
     assert fast.signs(triples) == exact.signs(triples) == expected
-    assert [fast.sign(*triple) for triple in triples] == expected
+    assert [fast.orientation(*triple) for triple in triples] == expected
     assert fast.signs([]) == []
 
 
@@ -68,7 +68,7 @@ def test_turns_of_directions(moving, t, after):
     ids = [v.id for v in moving.all[:4]]
 
     for a, b, c, d in product(ids, repeat=4):
-        assert fast.turn(a, b, c, d) == exact.turn(a, b, c, d)
+        assert fast.cross_sign(a, b, c, d) == exact.cross_sign(a, b, c, d)
         assert fast.turn_now(a, b, c, d) == exact.turn_now(a, b, c, d)
 
 
@@ -101,7 +101,7 @@ def test_clear_predicates_are_decided_by_floats():
     instant.sorted_by_x(range(6))
     for a, b in permutations(range(6), 2):
         instant.left_of(a, b)
-        instant.turn(0, 5, a, b)
+        instant.cross_sign(0, 5, a, b)
         if instant.left_of(a, b):
             instant.descent(a, b)
 

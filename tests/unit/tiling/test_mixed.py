@@ -76,7 +76,7 @@ def free(mesh):
 
 def convex(instant, a, b, c, d):
     """Whether the segments ab and cd cross."""
-    sign = instant.sign
+    sign = instant.orientation
     return sign(a, b, c) * sign(a, b, d) < 0 and sign(c, d, a) * sign(c, d, b) < 0
 
 

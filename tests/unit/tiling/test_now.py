@@ -145,13 +145,13 @@ def test_signs_just_before_and_just_after_now(moving, t, before):
     near = t - TINY if before else t + TINY
     for a, b, c in permutations(moving.all[:6], 3):
         if len({id(v.track) for v in (a, b, c)}) == 3:
-            assert moment.sign(a.id, b.id, c.id) == turn((a, b, c), near)
+            assert moment.orientation(a.id, b.id, c.id) == turn((a, b, c), near)
         p, q = place(a, near), place(b, near)
         if p != q:
             assert moment.left_of(a.id, b.id) == ((p[0], -p[1]) < (q[0], -q[1]))
         (p, q), (r, s) = ((place(u, near), place(v, near)) for u, v in ((a, b), (b, c)))
         cross = (q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0])
-        assert moment.turn(a.id, b.id, b.id, c.id) == sign(cross)
+        assert moment.cross_sign(a.id, b.id, b.id, c.id) == sign(cross)
 
 
 @pytest.mark.long
@@ -162,7 +162,7 @@ def test_signs_at_an_instant(moving, t, after):
     for a, b, c in permutations(moving.all[:6], 3):
         f = orientation(a, b, c)
         exactly = instants[0].first_sign((f,))
-        assert [i.sign(a.id, b.id, c.id) for i in instants] == [exactly] * 2
+        assert [i.orientation(a.id, b.id, c.id) for i in instants] == [exactly] * 2
         if len({id(v.track) for v in (a, b, c)}) == 3 and not after:
             assert exactly == turn((a, b, c), t)
 

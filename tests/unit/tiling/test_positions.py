@@ -66,8 +66,8 @@ def test_a_certain_sign_is_the_exact_one(vertices, time):
     a, b, c, d = vertices.all
     p, q, r, s = (v.track for v in vertices.all)
 
-    assert positions.sign(a, b, c) in (0, time.sign_of(orientation_of_tracks(p, q, r)))
-    assert positions.turn(a, b, c, d) in (0, time.sign_of(cross(p, q, r, s)))
+    assert positions.orientation(a, b, c) in (0, time.sign_of(orientation_of_tracks(p, q, r)))
+    assert positions.cross_sign(a, b, c, d) in (0, time.sign_of(cross(p, q, r, s)))
     for axis, (f, g) in enumerate(((p.x, q.x), (p.y, q.y))):
         assert positions.order(a, b, axis) in (0, time.sign_of(difference(f, p.w, g, q.w)))
 
@@ -83,8 +83,8 @@ def test_what_is_clear_is_decided():
     positions = Certifier(vertices, QQ(0), QQ(4), exact_only=False).positions
     a, b, c, d = vertices.all
 
-    assert positions.sign(a, b, c) == 1 == -positions.sign(b, a, c)
-    assert positions.turn(a, b, c, d) == -1 == -positions.turn(c, d, a, b)
+    assert positions.orientation(a, b, c) == 1 == -positions.orientation(b, a, c)
+    assert positions.cross_sign(a, b, c, d) == -1 == -positions.cross_sign(c, d, a, b)
     assert positions.order(a, b, 0) == 1 == positions.order(a, c, 1)
     assert positions.order(a, c, 0) == 0
 
@@ -98,7 +98,7 @@ def test_coordinates_that_no_double_holds_are_left_open():
     vertices = Vertices.of(bodies, QQ(0), QQ(1), plain=True)
     positions = Certifier(vertices, QQ(0), QQ(1), exact_only=False).positions
 
-    assert positions.sign(*vertices.all) in (0, 1)
+    assert positions.orientation(*vertices.all) in (0, 1)
     assert positions.order(vertices.all[1], vertices.all[2], 1) == 0
 
 
@@ -127,8 +127,8 @@ def test_what_is_on_one_line_stays_open(place, step, along, path, half, time):
     low, high = vertices.frame.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
 
-    assert certifier.positions.sign(*vertices.all[:3]) == 0
-    assert certifier.positions.turn(*vertices.all) == 0
+    assert certifier.positions.orientation(*vertices.all[:3]) == 0
+    assert certifier.positions.cross_sign(*vertices.all) == 0
 
 
 @pytest.mark.parametrize("turns", [False, True])
@@ -145,7 +145,7 @@ def test_a_sign_holds_in_the_whole_enclosure_of_now(turns):
     for low, high, known in ((1 - 1e-6, 1 + 1e-9, False), (1 - 1e-6, 1 - 9e-7, True)):
         certifier.move_to(EventTime(low, high, -1, -1, -1), [])
 
-        assert bool(certifier.positions.sign(*vertices.all)) == known
+        assert bool(certifier.positions.orientation(*vertices.all)) == known
         assert bool(certifier.positions.order(*vertices.all[1:], 1)) == known
 
 
@@ -165,6 +165,6 @@ def test_one_position_with_a_large_error_leaves_all_open(corner):
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
 
     for abcd in permutations(vertices.all):
-        assert certifier.positions.sign(*abcd[:3]) == 0
-        assert certifier.positions.turn(*abcd) == 0
+        assert certifier.positions.orientation(*abcd[:3]) == 0
+        assert certifier.positions.cross_sign(*abcd) == 0
         assert certifier.positions.order(*abcd[:2], 1) == 0

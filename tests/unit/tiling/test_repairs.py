@@ -83,10 +83,10 @@ def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tili
 
     def settled(repairs):
         settle(repairs)
-        repaired, batch = repairs.certified, repairs.certified.batch
-        if batch.needs_check(repaired.mesh):
+        repaired, failure_group = repairs.certified, repairs.certified.failure_group
+        if failure_group.needs_check(repaired.mesh):
             done["checked"] += 1
-        elif batch._repair > 1:
+        elif failure_group._repair > 1:
             done["apart"] += 1
             before = sorted(map(repaired.mesh.ends, repaired.mesh.diagonals()))
             repairs.check_batch()

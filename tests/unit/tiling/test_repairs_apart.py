@@ -4,7 +4,7 @@ import pytest
 
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
-from exactpt.tiling.simultaneous import Batch
+from exactpt.tiling.simultaneous import FailureGroup
 from exactpt.tiling.start import start_tiling
 
 
@@ -22,7 +22,7 @@ def faces(mesh):
 
 
 def batch(*repairs):
-    noted = Batch()
+    noted = FailureGroup()
     for half_edges in repairs:
         noted.begin_repair()
         noted.touch(half_edges)

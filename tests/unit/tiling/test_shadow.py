@@ -52,7 +52,7 @@ class Nonsense(Predicates):
     def __init__(self, seed):
         self.seed = seed
 
-    def sign(self, a, b, c):
+    def orientation(self, a, b, c):
         return Random(f"{self.seed}:{a}:{b}:{c}").choice((-1, 1))
 
 
