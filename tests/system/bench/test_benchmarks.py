@@ -452,7 +452,7 @@ def test_changes(results):
 
 
 def test_large(results):
-    large.run(results.output, large.Sizes((40,), 30), 0)
+    large.run(results.output, large.Sizes((40,), 30, 2), 0)
     rows = results.rows("large")
     assert [row["tiling"] for row in rows] == ["lazy", "greedy"]
     assert {row["events seen"] for row in rows} == {"30"}
