@@ -16,9 +16,9 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.families.shapes import cells, convex_polygon
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["FAMILIES", "Planted", "PlantedFamily"]
 

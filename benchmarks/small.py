@@ -27,8 +27,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.planner import Planner
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

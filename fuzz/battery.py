@@ -18,11 +18,11 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.pairs.contact import Contact
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.families.degenerate import grids, rings
 from exactpt.scene.families.shapes import box, poly
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.witnesses import tilings_of
 
 __all__ = ["BATTERY", "Row", "Trial", "play", "table"]

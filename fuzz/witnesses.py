@@ -11,12 +11,12 @@ from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.detector import first_contact
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import tilings_for
 from fuzz.proofs.checking import checker
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 

@@ -10,10 +10,10 @@ from typing import Final
 from benchmarks.methods.method import Answer, Method
 from exactpt.collision.detector import first_contact
 from exactpt.pairs.contact import Contact
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["EXACT_SEARCH", "OWN", "fresh"]
 

@@ -17,13 +17,13 @@ from exactpt import check_apart, first_contact
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import rational
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import Proof, certificate_of, certify
 from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.scene import Scene, scene_of
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit
 from fuzz.proofs.checking import checker
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["KINDS", "Apart", "is_true", "tampered", "verdict"]
 

@@ -14,7 +14,6 @@ from random import Random
 from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
@@ -26,6 +25,7 @@ from fuzz.limits import limit
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.texts import TEXTS
 from fuzz.proofs.wrong import wheel, wrong_splice
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["KINDS", "Mutant", "Mutants", "is_true", "mutants"]
 

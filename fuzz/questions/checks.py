@@ -21,7 +21,6 @@ from exactpt.pairs.distance import distance
 from exactpt.pairs.features import Feature
 from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.intervals import contact_intervals
-from exactpt.pairs.reference import touches_at
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.flip import flip
@@ -35,6 +34,7 @@ from exactpt.tiling.engine import Engine
 from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
+from fuzz.questions.all_pairs import touches_at
 from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact

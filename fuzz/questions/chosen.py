@@ -10,8 +10,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.planner import Planner
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene, scene_of
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.scenes import crowded_scene
 
 __all__ = ["wrong_choice"]

@@ -15,8 +15,8 @@ from typing import TypeAlias
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene, scene_of
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.crossing import chains_cross
 from fuzz.questions.reference import edges_of, meet_at, moments, pieces, tracks
 

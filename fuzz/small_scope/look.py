@@ -13,12 +13,12 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.pieces import linear_pieces
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned

@@ -9,8 +9,8 @@ import pytest
 from exactpt import proof_check
 from exactpt.cgal import check_proof
 from exactpt.errors import InputError
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof.emit import ProofRun, scene_bytes
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict", "without_hash"]
 

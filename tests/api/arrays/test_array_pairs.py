@@ -7,8 +7,8 @@ from array_help import Table, agrees, boxes, some_pairs, stars, ulps
 from exactpt import first_contact
 from exactpt.arrays import blocks, first_contacts
 from exactpt.errors import InputError
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def assert_all_agree(table, ask=first_contact_allpairs):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from exactpt import first_contact
 from exactpt.arrays import point_segment_contacts
 from exactpt.arrays import queries as module
-from exactpt.pairs.reference import first_contact_allpairs
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 SIZES = (2.0**-1040, 2.0**-300, 2.0**-30, 1.0, 2.0**30, 2.0**300, 2.0**1020)
 

@@ -12,10 +12,10 @@ from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.start import TILINGS
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 SCENES = Path(__file__).parents[2] / "data" / "scenes"
 

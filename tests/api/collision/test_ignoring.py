@@ -9,9 +9,9 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def box(name, x, motion=None, y=0):

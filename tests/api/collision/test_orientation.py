@@ -8,10 +8,10 @@ import pytest
 import exactpt
 from exactpt import Body, Pieces, Rigid, Scene
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from exactpt.simulation.motion_changes import onward
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.variants import VARIANTS, difference
 
 QUARTERS = [(1, 0), (0, 1), (-1, 0), (0, -1)]

@@ -5,9 +5,9 @@ import pytest
 from exactpt.collision.detector import first_contact
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 from exactpt.tiling.start import TILINGS
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.variants import VARIANTS
 
 FALL = Translation([], [0, -1])

@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 from exactpt.errors import InputError
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.start import tilings_for
@@ -27,6 +26,7 @@ from fuzz.normals import wrong_normal
 from fuzz.options import _report
 from fuzz.planted import PLANTED, _edited, hunt, table
 from fuzz.questions import checks
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.checks import QUESTIONS, Checked, checked
 from fuzz.small_scope.scope import planned
 from fuzz.witnesses import WITNESSES

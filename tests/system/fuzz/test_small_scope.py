@@ -18,13 +18,13 @@ from exactpt.geometry.polygon import contains, edges, first_self_touch, segments
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.pairs.pieces import linear_pieces
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.planted import PLANTED
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.small_scope import tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope

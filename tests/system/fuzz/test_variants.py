@@ -9,10 +9,10 @@ from folding import every
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.written import to_json
+from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.variants import VARIANTS, difference, expected_time
 
 FORWARDS = [name for name in VARIANTS if name != "backwards"]

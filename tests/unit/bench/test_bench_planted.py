@@ -11,7 +11,7 @@ from benchmarks.planted import FAMILIES, Planted
 from benchmarks.wrong_answers import Wrong, count_wrong
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.reference import first_contact_allpairs
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 NO_CONTACT = {"graze, gap 2^-40", "tangential, gap 2^-47"}
 ALWAYS_CONTACT = {"exact graze", "graze, overlap 2^-40", "tangential touch"}

@@ -14,8 +14,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.pairs.approach import first_within
 from exactpt.pairs.intervals import contacts
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def comb_on_a_wall(teeth, path):

@@ -14,8 +14,8 @@ from exactpt.motion.motions import Translation
 from exactpt.pairs import boxes as row_boxes
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def jellies(rng, count, size):

@@ -7,9 +7,9 @@ import pytest
 from exactpt import Body, Planner, Rigid, Scene, Translation, first_contact
 from exactpt.errors import InputError
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import RINGS, generate
 from exactpt.tiling.start import TILINGS
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 FRAME = [(0, 0), (10, 0), (10, 10), (0, 10)]
 HOLE = [(1, 1), (9, 1), (9, 9), (1, 9)]

@@ -28,9 +28,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.pairs import two_pieces
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.scene.generate import ROUNDED, generate
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 RIGHT = Translation([0, 1])
 WALL = Body("wall", [(10, -9), (10, 9)])

@@ -17,9 +17,9 @@ from exactpt.pairs import search as straight_search
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.pieces import linear_pieces
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]
 

@@ -13,9 +13,9 @@ from exactpt.motion.outline import straight_pieces
 from exactpt.pairs import search
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.filters import candidates_of, window
-from exactpt.pairs.radius_reference import core_distance, first_at_distance
 from exactpt.pairs.rational import span_of
 from exactpt.pairs.two_pieces import ContactDistance, first_meeting
+from fuzz.questions.all_pairs_radii import core_distance, first_at_distance
 
 SHAPES = [
     [(0, 0)],

@@ -9,12 +9,12 @@ from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noq
 from exactpt import Body, Scene, Translation
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
 from exactpt.tiling import engine, touching
 from fuzz.proofs.wrong import spliced, touching_and_going
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 

@@ -10,9 +10,9 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.families.shapes import convex_polygon, hull
 from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 TIP = [(0, 0), (-3, 1), (-3, -1)]
 """A wedge that points to the right."""

@@ -19,8 +19,8 @@ from exactpt import (
     first_contact,
 )
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.simulation.responses import _velocity_beside
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
 EXACT = 2.0**-19  # velocities are rounded to the grid of 2^-20

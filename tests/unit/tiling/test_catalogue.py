@@ -15,13 +15,13 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.motion.body import Body
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRules")
 

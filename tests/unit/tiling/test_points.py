@@ -15,7 +15,6 @@ from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.planar.halfedge import edge_key
 from exactpt.scene.generate import POINTS, generate
 from exactpt.scene.scene import Scene
@@ -27,6 +26,7 @@ from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import UPPER
 from exactpt.tiling.incremental.tree_repairs import TreeRepairs
 from exactpt.tiling.start import plan_tiling, start_tiling
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
 

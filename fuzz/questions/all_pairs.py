@@ -3,7 +3,7 @@
 It follows the definition of a contact and uses neither a tiling nor a float filter. It shares
 the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
 `exactpt.motion.incidence` with the searches that it checks. Where a body has a radius,
-`exactpt.pairs.radius_reference` has the definition; such a body does not touch itself.
+`fuzz.questions.all_pairs_radii` has the definition; such a body does not touch itself.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orien
 from exactpt.motion.track import Track
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.incidences import tracks_just_before
-from exactpt.pairs.radius_reference import (
+from exactpt.scene.scene import Scene
+from fuzz.questions.all_pairs_radii import (
     core_distance,
     first_at_distance,
     touches_at_distance,
 )
-from exactpt.scene.scene import Scene
 
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
