@@ -4,33 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Final, TypeAlias, final
+from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, crossing_pairs, overlapping_pairs
-from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
+from exactpt.motion.slabs import Near, slabs
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
-
-Near: TypeAlias = tuple[Indices, Indices]
-"""Pairs of a vertex and an edge, by number."""
 
 MANY: Final = 8
 """Number of bodies from which on those that are near no other are left out first."""
 
 SMALL: Final = 64
 """Number of vertices, of fewer bodies than that, below which all are compared with all edges."""
-
-PATIENCE: Final = 8
-"""Number of slabs after which one as long as the last that was too long is tried again."""
-
-SMALLEST_SLAB: Final = 1 << 40
-"""The shortest slab is the time span divided by this."""
 
 
 @final
@@ -53,7 +44,8 @@ class SweptEdges:
     """
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
-        self._start, self._end = start, end
+        inner = {t for body in bodies for t in body._breakpoints if start < t < end}
+        self._times = sorted({start, end, *inner})
         self.vertices = Vertices.of(bodies, start, end, plain=True)
         self.ids = self.vertices.ids()
         self.body: Indices = np.array([self.vertices.all[v].body for v in self.ids])
@@ -75,75 +67,31 @@ class SweptEdges:
         self.motion: Indices = np.array([image.motion for image in images])
         self.deforms = np.array([moving.deforms for moving in self.vertices.bodies])
 
-    def slabs(self, near: Callable[[QQ, QQ], Near]) -> Iterator[tuple[QQ, QQ, Near]]:
-        """Cut the time span into slabs, none longer than a piece of motion: start, end, candidates.
+    def slabs(
+        self, near: Callable[[QQ, QQ], Near], longest: QQ | None = None, many: int | None = None
+    ) -> Iterator[tuple[QQ, QQ, Near]]:
+        """Cut the time span into `slabs`, none longer than a piece of motion.
 
-        They are longer while there are few candidates. After a slab that was too long, the
-        following ones are shorter than it for a while.
+        The average vertex moves an eighth as far in the first one as others are: this depends on
+        how fast bodies pass each other, not on how long they are watched.
 
         Args:
             near: the candidates of a slab.
+            longest: the length of the longest slab, if it is limited.
+            many: the number of candidates above which a slab is shortened.
         """
-        now, end = self._start, self._end
-        step, limit = self._first_step(), end - now
-        since = 0  # number of slabs since one was too long
-        while now < end:
-            ask()
-            tried = step
-            step, later, found = self._slab(now, step, near)
-            yield now, later, found
-            since += 1
-            if step < tried:
-                limit, since = tried / 2, 0
-            elif since > PATIENCE:
-                limit = end - self._start
-            if later == now + step and 4 * len(found[0]) < self._many():
-                step = min(2 * step, limit)
-            now = later
-            self.enter_pieces(now)
-
-    def _slab(self, now: QQ, step: QQ, near: Callable[[QQ, QQ], Near]) -> tuple[QQ, QQ, Near]:
-        """Return a slab from now on: its length, its end, and the candidates in it.
-
-        With many candidates it is shortened, by 4 or by 16, as long as these get fewer by the
-        square root of that at least; else they stay near each other, and shorter slabs are no
-        help.
-        """
-        until = self.until()
-        later = min(now + step, until)
-        found = near(now, later)
-        least = (self._end - self._start) / SMALLEST_SLAB
-        tried = step
-        while len(found[0]) > self._many() and tried > least and 8 * tried >= step:
-            tried /= 4
-            fewer = near(now, min(now + tried, until))
-            if len(fewer[0]) ** 2 * step <= len(found[0]) ** 2 * tried:
-                step, later, found = tried, min(now + tried, until), fewer
-        return step, later, found
-
-    def _many(self) -> int:
-        """Return the number of candidates above which a slab is shortened."""
-        return 2 * len(self.ids) + 64
-
-    def _first_step(self) -> QQ:
-        """Length of the first slab: the average vertex moves an eighth as far as others are.
-
-        It depends on how fast bodies pass each other, not on how long they are watched. Slabs
-        with few candidates grow longer.
-        """
-        span, frame = self._end - self._start, self.vertices.frame
-        stride = self.boxes.stride(frame.time(self._start)[0])
+        times, frame = self._times, self.vertices.frame
+        first = longest = longest or times[-1] - times[0]
+        stride = self.boxes.stride(frame.time(times[0])[0])
         # Shorter slabs are no help to vertices without boxes, nor where nothing moves.
-        if math.isnan(stride) or math.isinf(stride):
-            return span
-        return min(span, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
+        if math.isfinite(stride):
+            first = min(first, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
+        many = many or 2 * len(self.ids) + 64
+        for now, later, found in slabs(times, near, many, first, longest):
+            yield now, later, found
+            self._enter_pieces(later)
 
-    def until(self) -> QQ:
-        """Return the earliest end of the current pieces of motion, at most that of the span."""
-        untils = (m.until for m in self.vertices.bodies if m.until is not None)
-        return min([self._end, *untils])
-
-    def enter_pieces(self, now: QQ) -> None:
+    def _enter_pieces(self, now: QQ) -> None:
         """Replace the pieces of motion that end at a time by those that follow."""
         ended = [i for i, m in enumerate(self.vertices.bodies) if m.until == now]
         for i in ended:

@@ -21,7 +21,8 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
 from exactpt.motion.incidence import Touch, vertex_touch
-from exactpt.motion.swept_edges import Near, SweptEdges
+from exactpt.motion.slabs import Near
+from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest, Meeting

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, grown, overlapping_pairs, widen_unknown
-from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
 from exactpt.motion.outline import Outline
+from exactpt.motion.slabs import Near, slabs
 from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 
 if TYPE_CHECKING:
@@ -28,9 +28,6 @@ Indices: TypeAlias = NDArray[np.int64]
 
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
-SHORTEST: Final = 2.0**-40
-"""The shortest slab, as a share of the time span."""
-
 
 _COLUMNS: Final = (
     "_c", "_c_error", "_end", "_high", "_low", "_reach", "_start", "_v", "_v_error", "body",
@@ -201,14 +198,14 @@ def radius_above(body: Body) -> float:
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
     """Return the pairs i < j of bodies, each with one piece, whose boxes intersect at a time."""
     low, high = enclosing_floats(time)
-    few, _, first, second = _meeting(boxes, low, high)
-    if len(first) > few:
+    first, second = _meeting(boxes, low, high)
+    if len(first) > 8 * len(boxes) + 64:
         lows, highs = np.full(len(first), low), np.full(len(first), high)
         boxes.narrow(first, second, lows, highs)
         near = lows <= highs
         first, second = first[near], second[near]
     pairs = np.sort(np.stack((boxes.body[first], boxes.body[second]), axis=1), axis=1)
-    return [(i, j) for i, j in pairs.tolist()]
+    return [(i, j) for i, j in pairs.tolist() if i < j]
 
 
 def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
@@ -216,58 +213,36 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
 
     Each comes with a time at or before which it does, in increasing order of these times.
     """
-    now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
-    span = last - now
-    least = SHORTEST * span
-    bodies = len(set(boxes.body.tolist()))
-    step = min(span, PIECES * span * bodies / len(boxes))
-    stride = boxes.stride(now)
-    step = max(least, min(step, 4.0 * stride)) if stride > 0.0 else step
-    seen: set[tuple[int, int]] = set()
-    while now < last:
-        ask()
-        later = min(now + step, last)
-        many, count, first, second = _meeting(boxes, now, later)
-        while len(first) > many and step > least and later > now:
-            shorter = min(now + step / 4, last)
-            fewer = _meeting(boxes, now, shorter)
-            if 2 * len(fewer[2]) > len(first):
-                break
-            step, later, (_, count, first, second) = step / 4, shorter, fewer
-        enter, leave = boxes.windows(first, second, now, later)
-        near = enter <= leave
-        if near.sum() > many:
-            boxes.narrow(first, second, enter, leave)
-            near = enter <= leave
-        pairs = zip(enter[near].tolist(), first[near].tolist(), second[near].tolist(), strict=True)
-        for time, i, j in sorted(pairs):
-            if (i, j) not in seen:
-                seen.add((i, j))
-                yield time, i, j
-        step *= min(4.0, max(1.0, many / (count + 1)))  # as if each time had as many pairs
-        if not later > now:
-            later = float(np.nextafter(now, np.inf))
-        now = later
+    span, bodies = end - start, len(set(boxes.body.tolist()))
+    first = min(span, PIECES * span * bodies / len(boxes))
+    stride = 4.0 * boxes.stride(enclosing_floats(start)[0])
+    if 0.0 < stride < np.inf:
+        first = min(first, QQ(stride))
+    many, seen = 8 * bodies + 64, set[tuple[int, int]]()
+
+    def near(now: QQ, later: QQ) -> Near:
+        return _meeting(boxes, *_around(now, later))
+
+    for now, later, found in slabs((start, end), near, many, first, span):
+        i, j = np.stack(found)[:, boxes.body[found[0]] != boxes.body[found[1]]]
+        enter, leave = boxes.windows(i, j, *_around(now, later))
+        meets = enter <= leave
+        if meets.sum() > many:
+            boxes.narrow(i, j, enter, leave)
+            meets = enter <= leave
+        pairs = zip(*(column[meets].tolist() for column in (enter, i, j)), strict=True)
+        for time, k, l in sorted(pairs):
+            if (k, l) not in seen:
+                seen.add((k, l))
+                yield time, k, l
 
 
-def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, int, Indices, Indices]:
-    """Return the pairs of pieces of two bodies whose boxes intersect during [low, high].
+def _around(now: QQ, later: QQ) -> tuple[float, float]:
+    return enclosing_floats(now)[0], enclosing_floats(later)[1]
 
-    Returns:
-        The number of pairs that numpy compares in the time of finding them, that of all pairs
-        whose boxes intersect, those of one body included, and the pairs of two bodies.
-    """
+
+def _meeting(boxes: PieceBoxes, low: float, high: float) -> Near:
+    """Return the pairs of pieces whose boxes intersect during [low, high]."""
     active, places = boxes.during(low, high)
-    few, count = 8 * len(active) + 64, 0
-    firsts: list[Indices] = []
-    seconds: list[Indices] = []
-    for i, j in overlapping_pairs(places):
-        i, j = active[i], active[j]  # noqa: PLW2901
-        two = boxes.body[i] != boxes.body[j]
-        count += len(i)
-        firsts.append(i[two])
-        seconds.append(j[two])
-    if not firsts:
-        none = np.empty(0, dtype=np.int64)
-        return few, count, none, none
-    return few, count, np.concatenate(firsts), np.concatenate(seconds)
+    i, j = zip(*overlapping_pairs(places), strict=True)
+    return active[np.concatenate(i)], active[np.concatenate(j)]

@@ -9,6 +9,7 @@ import numpy as np
 
 from exactpt.geometry.boxes import grown, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import ScenePieces, linear_pieces
@@ -17,7 +18,7 @@ from exactpt.scene.scene import Scene
 FEW: Final = 4
 """Maximum number of bodies of which all pairs are named at once."""
 SLABS: Final = 64
-"""Number of slabs in the time span; each piece of motion has one at least."""
+"""Minimum number of slabs in the time span, of motions that are not linear."""
 
 
 def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
@@ -37,14 +38,14 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
     units = [power_of_two(-scale) for scale in swept.vertices.frame.scale]
     halves = [reach / 2 + body._radius for body in scene.bodies]
     by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
-    width = (scene._end - scene._start) / SLABS
     found: set[tuple[int, int]] = set()
-    now = scene._start
-    while now < scene._end:
-        later = min(now + width, swept.until())
+
+    def near_bodies(now: QQ, later: QQ) -> Near:
         boxes = swept.of_bodies(swept.during(now, later))
-        for first, second in overlapping_pairs(grown(boxes, by) if by.any() else boxes):
-            found.update(zip(first.tolist(), second.tolist(), strict=True))
-        now = later
-        swept.enter_pieces(now)
+        i, j = zip(*overlapping_pairs(grown(boxes, by) if by.any() else boxes), strict=True)
+        return np.concatenate(i), np.concatenate(j)
+
+    longest, many = (scene._end - scene._start) / SLABS, 8 * len(scene.bodies) + 64
+    for _, _, (i, j) in swept.slabs(near_bodies, longest, many):
+        found.update(zip(i.tolist(), j.tolist(), strict=True))
     return sorted(found)
