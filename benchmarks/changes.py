@@ -158,7 +158,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def changes(scene: Scene, tiling: str) -> int:
     """The number of events that change edges, up to the end; the scene has no contact."""
-    driver = Driver(lambda: scene)
+    driver = Driver(scene)
     driver.start(tiling)
     driver.run(scene._end)
-    return sum(driver.kinetic.stats.events.get(kind, 0) for kind in KINDS)
+    return sum(driver.tiled.kinetic.stats.events.get(kind, 0) for kind in KINDS)

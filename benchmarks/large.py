@@ -104,7 +104,7 @@ def figures(tiling: str, bodies: int, events: int, contacts: int, seed: int) -> 
     before = process_time()
     if kinetic is not None and simulation.contact is None:
         total = kinetic.stats.total
-        driver = Driver(lambda: scene, kinetic)
+        driver = Driver(scene, kinetic)
         while many < events and driver.advance(scene._end, NOTHING) is not None:
             many = kinetic.stats.total - total
         many = kinetic.stats.total - total

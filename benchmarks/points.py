@@ -117,7 +117,7 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
     tiling, start = timed(lambda: _start(scene, chains=chains, fan=fan))
     pending = len(tiling.queue)
     exact = tiling.vertices.counters.exact
-    driver = Driver(lambda: scene, tiling)
+    driver = Driver(scene, tiling)
     _, seconds = timed(lambda: sum(1 for _ in driver.events(scene._end)))
     return Measured(
         tiling.stats.total - tiling.stats.events.get("motion", 0),

@@ -186,7 +186,7 @@ def _alone_and_told(scene: Scene, tiling: str, events: int) -> tuple[float, floa
 
 def _events(scene: Scene, kinetic: Tiling) -> Iterable[object]:
     """The events of a tiling up to the first contact."""
-    return Driver(lambda: scene, kinetic).events(scene._end)
+    return Driver(scene, kinetic).events(scene._end)
 
 
 def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:

@@ -152,10 +152,10 @@ def check_run(
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     with CgalCheck() as cgal:
         witness = _Witness(scene, cgal, report, max_events, deadline, reached)
-        driver = Driver(lambda: scene, observers=[witness])
+        driver = Driver(scene, observers=[witness])
         contact = driver.start(plan)
         if contact is None:
-            witness.tiling(driver.kinetic, scene._start)
+            witness.tiling(driver.tiled.kinetic, scene._start)
             contact = driver.run(scene._end)
         if contact is not None:
             witness.time(contact.time)

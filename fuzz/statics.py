@@ -58,15 +58,15 @@ def run_and_audit(
         InputError: if the tiling does not support the scene.
     """
     audits = _Audits(middle=middle)
-    driver = Driver(lambda: scene, observers=[audits])
+    driver = Driver(scene, observers=[audits])
     if driver.start(tiling, exact_only=exact_only) is not None:
         return None
-    audit_places(driver.kinetic.vertices)
+    audit_places(driver.tiled.kinetic.vertices)
     try:
         contact = driver.run(scene._end)
     finally:
-        audit_places(driver.kinetic.vertices)
-    return Audited(driver.kinetic, contact=contact is not None, gaps=audits.gaps)
+        audit_places(driver.tiled.kinetic.vertices)
+    return Audited(driver.tiled.kinetic, contact=contact is not None, gaps=audits.gaps)
 
 
 @final

@@ -6,7 +6,7 @@ Nothing else calls `Tiling.advance` or `Tiling.advance_many`. Whoever follows a 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, final
 
@@ -17,13 +17,13 @@ from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.start import initial_touches, near_pairs
+from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound, TilingEvent
 from exactpt.tiling.start import TilingPlan, plan_tiling
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.motion.incidence import Touch
-    from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
 NOTHING: Final = 0
@@ -80,44 +80,21 @@ class Observer:
         """Finish the observation of the run."""
 
 
-@final
-class Driver:
-    """Drives the tiling of a scene.
-
-    Args:
-        scene: returns the scene, from the last change of motions on.
-        tiling: the tiling, between two events; None before `start`.
-        observers: the observers of the run.
-        budget: the bounds of `run`.
+class TiledScene:
+    """A scene and its tiling, both of which may change between two events.
 
     Attributes:
-        tiling: the tiling; None before there is one. It may be replaced between two events.
-        observers: the observers of the run.
-        budget: the bounds of `run`.
-        since: a rational time with no contact up to it; None before the contacts at the start
-            are known, and if there are any.
-        touches: the incidences of the contact that ended the last `start` or `advance`; None
-            without one.
-        overlaps: the pairs of bodies in contact at the start, as in `initial_touches`.
-        is_broken: whether the tiling was left in the middle of an event; set by the caller.
+        scene: the bodies, from the last change of motions on.
+        tiling: the tiling; None before there is one.
     """
 
-    def __init__(
-        self,
-        scene: Callable[[], Scene],
-        tiling: Tiling | None = None,
-        *,
-        observers: Sequence[Observer] = (),
-        budget: Budget | None = None,
-    ) -> None:
+    def __init__(self, scene: Scene, tiling: Tiling | None = None) -> None:
         self._scene = scene
         self.tiling = tiling
-        self.observers = list(observers)
-        self.budget = Budget(None, None) if budget is None else budget
-        self.since: QQ | None = None if tiling is None else scene()._start
-        self.touches: Sequence[Touch] | None = None
-        self.overlaps: Sequence[tuple[int, int]] = ()
-        self.is_broken = False
+
+    @property
+    def scene(self) -> Scene:  # noqa: D102 - an attribute
+        return self._scene
 
     @property
     def kinetic(self) -> Tiling:
@@ -130,6 +107,45 @@ class Driver:
             raise InputError("the bodies touch at the start: there is no tiling")
         return self.tiling
 
+
+@final
+class Driver:
+    """Drives the tiling of a scene.
+
+    Args:
+        scene: the scene; with its tiling, if it changes.
+        tiling: the tiling of a scene, between two events; None before `start`.
+        observers: the observers of the run.
+        budget: the bounds of `run`.
+
+    Attributes:
+        tiled: the scene and its tiling.
+        observers: the observers of the run.
+        budget: the bounds of `run`.
+        since: a rational time with no contact up to it; None before the contacts at the start
+            are known, and if there are any.
+        touches: the incidences of the contact that ended the last `start` or `advance`; None
+            without one.
+        overlaps: the pairs of bodies in contact at the start, as in `initial_touches`.
+        is_broken: whether the tiling was left in the middle of an event; set by the caller.
+    """
+
+    def __init__(
+        self,
+        scene: Scene | TiledScene,
+        tiling: Tiling | None = None,
+        *,
+        observers: Sequence[Observer] = (),
+        budget: Budget | None = None,
+    ) -> None:
+        self.tiled = TiledScene(scene, tiling) if isinstance(scene, Scene) else scene
+        self.observers = list(observers)
+        self.budget = Budget(None, None) if budget is None else budget
+        self.since: QQ | None = None if self.tiled.tiling is None else self.tiled.scene._start
+        self.touches: Sequence[Touch] | None = None
+        self.overlaps: Sequence[tuple[int, int]] = ()
+        self.is_broken = False
+
     def start(self, tiling: str | TilingPlan, *, exact_only: bool = False) -> Contact | None:
         """Build the tiling of a name or a choice, or return the contact at the start.
 
@@ -137,7 +153,7 @@ class Driver:
             BudgetExceeded: if the time or the memory of this thread is used up.
             InputError: see `plan_tiling`.
         """
-        scene = self._scene()
+        scene = self.tiled.scene
         start = scene._start
         plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
         near = None if exact_only else near_pairs(plan.vertices, start)
@@ -150,7 +166,7 @@ class Driver:
         self.since = start
         try:
             with collector_at_rest():  # in one piece: at its end all that is new is visited once
-                self.tiling = plan.start(start, exact_only=exact_only)
+                self.tiled.tiling = plan.start(start, exact_only=exact_only)
         except BudgetExceeded as spent:
             spent.reached = scene.start
             raise
@@ -169,9 +185,9 @@ class Driver:
             current time is now ``until``; or if there is a contact now: then `touches` has its
             incidences, and observers are notified by `meet`.
         """
-        tiling, self.touches = self.kinetic, None
+        tiling, self.touches = self.tiled.kinetic, None
         for observer in self.observers:
-            observer.on_advance(self._scene(), tiling)
+            observer.on_advance(self.tiled.scene, tiling)
         events: list[TilingEvent] | None = None
         try:
             if level >= EVENTS:
@@ -207,16 +223,16 @@ class Driver:
     def meet(self) -> Contact:
         """End the run with the contact that `advance` has found."""
         for observer in self.observers:
-            observer.on_contact(self.kinetic, self.touches or ())
+            observer.on_contact(self.tiled.kinetic, self.touches or ())
         return self.contact_ahead()
 
     def contact_ahead(self) -> Contact:
         """Return the contact that `advance` has found."""
-        return contact_of(self._scene(), self.kinetic.now, self.touches or ())
+        return contact_of(self.tiled.scene, self.tiled.kinetic.now, self.touches or ())
 
-    def change(self, tiling: Tiling, t: QQ) -> None:
+    def change(self, t: QQ) -> None:
         """Continue after a change of motions or bodies at a rational time without a contact."""
-        self.tiling, self.since = tiling, t
+        self.since = t
         for observer in self.observers:
             observer.on_change(t)
 
@@ -238,7 +254,7 @@ class Driver:
         """
         if self.is_broken:
             return self.passed()
-        now = self.kinetic.now
+        now = self.tiled.kinetic.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
     def passed(self) -> Fraction | None:
@@ -246,7 +262,7 @@ class Driver:
 
         None if nothing is known, see `Search.passed`.
         """
-        since, tiling = self.since, self.tiling
+        since, tiling = self.since, self.tiled.tiling
         if since is None:
             return None
         if tiling is None or tiling.passed is None:

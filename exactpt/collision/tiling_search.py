@@ -45,12 +45,12 @@ class TilingSearch:
         self._scene = scene
         self._exact_only = exact_only
         self._budget = Budget(max_events, max_seconds)
-        self.driver = Driver(lambda: scene, budget=self._budget)
+        self.driver = Driver(scene, budget=self._budget)
 
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the search so far, see docs/format.md."""
-        return report(self._scene, self.driver.tiling)
+        return report(self._scene, self.driver.tiled.tiling)
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""

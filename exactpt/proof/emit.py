@@ -106,7 +106,7 @@ class ProofRun(TilingSearch):
             yield self.maker.contact_at_start(driver.touches or (), driver.overlaps)
             return
         made: list[str] = []
-        part = Part(driver.kinetic, self.nodes, self.maker, made.extend)
+        part = Part(driver.tiled.kinetic, self.nodes, self.maker, made.extend)
         driver.observers.append(part)
         while (events := driver.advance(scene._end)) is not None:
             driver.spend(len(events))

@@ -111,27 +111,27 @@ def film_of(
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
         return _without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)
-    driver = Driver(lambda: scene, budget=budget)
+    driver = Driver(scene, budget=budget)
     with carrying(lambda: scene), searching(None, driver.passed), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
         contact = driver.start(plan)
         if contact is not None:
             return _without_tiling(scene, plan.name, contact)
-        node = driver.kinetic.vertices.nodes()
-        tracker = Tracker(driver.kinetic, node)
+        node = driver.tiled.kinetic.vertices.nodes()
+        tracker = Tracker(driver.tiled.kinetic, node)
         driver.observers.append(tracker)
         steps: list[Step] = []
         while (events := driver.advance(scene._end)) is not None:
             if events:
                 changes = [_change(event, node) for event in events]
-                steps.append(_step(driver.kinetic, node, changes))
+                steps.append(_step(driver.tiled.kinetic, node, changes))
                 tracker.update(len(steps))
                 if reached is not None:
                     reached(steps[-1].time)
             driver.spend(len(events))
         if driver.touches is not None:
             contact = driver.meet()
-            steps.append(_step(driver.kinetic, node, [Change("contact", (), ())]))
+            steps.append(_step(driver.tiled.kinetic, node, [Change("contact", (), ())]))
             if reached is not None:
                 reached(contact.time)
     edges, tiles = tuple(tracker.edges), tuple(tracker.tiles)

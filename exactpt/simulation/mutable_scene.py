@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, final
 
+from exactpt.collision.driver import TiledScene
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
@@ -33,23 +34,22 @@ class Choice(NamedTuple):
 
 
 @final
-class MutableScene:
+class MutableScene(TiledScene):
     """A scene with its tiling; bodies are added, removed and given new motions.
 
     Attributes:
         choice: how the tiling was chosen.
         changes: number of new motions, added bodies and removed bodies.
-        tiling: the current tiling; None if bodies touch at the start.
     """
 
     def __init__(
         self, scene: Scene, tiling: Tiling | None, choice: Choice, changes: int = 0
     ) -> None:
+        super().__init__(scene, tiling)
         self.choice = choice
         self.changes = changes
-        self.tiling = tiling
         self._end = scene
-        self._scene: Scene | None = scene
+        self._is_new = False  # whether the scene is to be built
         self._since = scene._start
         self._given: Sequence[Body] = scene.bodies
         self._copied: list[Body] | None = None  # of the bodies given, when they are first needed
@@ -71,17 +71,6 @@ class MutableScene:
         return self._numbered
 
     @property
-    def kinetic(self) -> Tiling:
-        """The current tiling.
-
-        Raises:
-            InputError: if bodies touch at the start.
-        """
-        if self.tiling is None:
-            raise InputError("the bodies touch at the start: there is no tiling")
-        return self.tiling
-
-    @property
     def name(self) -> str:
         """The name of the tiling."""
         return self.choice.name if self.tiling is None else self.tiling.name
@@ -94,8 +83,8 @@ class MutableScene:
     @property
     def scene(self) -> Scene:
         """The bodies with their current motions, from the last change on; built on first use."""
-        if self._scene is None:
-            self._scene = self._end.going_on(self._bodies, self._since)
+        if self._is_new:
+            self._scene, self._is_new = self._end.going_on(self._bodies, self._since), False
         return self._scene
 
     @property
@@ -149,7 +138,7 @@ class MutableScene:
             return self._restart(bodies, t, len(new))
         for i, body in new.items():
             self._bodies[i] = body
-        self._since, self._scene = t, None
+        self._since, self._is_new = t, True
         self.changes += len(new)
         return events_of(self.kinetic, events)
 
@@ -170,7 +159,7 @@ class MutableScene:
             return self._restart(bodies, t, 1)
         self._number[body.name] = len(self._bodies)
         self._bodies.append(body)
-        self._since, self._scene = t, None
+        self._since, self._is_new = t, True
         self.changes += 1
         return events_of(self.kinetic, events)
 
@@ -187,7 +176,7 @@ class MutableScene:
         events = None if rings else kinetic.remove_body(i, t)
         if events is None:
             return self._restart(self._bodies, t, 1)
-        self._since, self._scene = t, None
+        self._since, self._is_new = t, True
         self.changes += 1
         return events_of(self.kinetic, events)
 
@@ -200,7 +189,7 @@ class MutableScene:
         kinetic.take_over_counts(self.kinetic)
         kinetic.stats.count("motion")
         kinetic.stats.rebuilds += 1
-        self.tiling, self._scene, self._since = kinetic, scene, t
+        self.tiling, self._scene, self._is_new, self._since = kinetic, scene, False, t
         self._set_bodies(bodies)
         self.changes += changes
         after = self._diagonals()

@@ -71,9 +71,7 @@ class Run:
         self, mutable: MutableScene, budget: Budget, observers: Sequence[Observer] = ()
     ) -> None:
         self.mutable = mutable
-        self.driver = Driver(
-            lambda: mutable.scene, mutable.tiling, observers=observers, budget=budget
-        )
+        self.driver = Driver(mutable, observers=observers, budget=budget)
         self.margin = _margin_of(mutable.scene)
         self.pending: deque[Event] = deque()
         self.contact: Contact | None = None
@@ -208,7 +206,7 @@ class Run:
             if self.reported is not None and ahead.is_again(self.reported):
                 self.contact = driver.meet()
                 return
-            driver.kinetic.retreat(grid)
+            driver.tiled.kinetic.retreat(grid)
         self._report(contact)
         self.reported = ahead
         changes = mutable.changes
@@ -255,7 +253,7 @@ class Run:
             t = self.mutable.now._low
             if self.log is not None:
                 self.log.changed(t, self.mutable.bodies)
-            self.driver.change(self.mutable.kinetic, t)
+            self.driver.change(t)
 
     def _scene(self) -> Scene:
         return self.mutable.scene
@@ -290,9 +288,7 @@ def begin(
         run = Run(mutable, budget, observers)
         run.log = log
         contact = run.driver.start(plan, exact_only=exact_only)
-        if contact is None:
-            mutable.tiling = run.driver.tiling
-        else:
+        if contact is not None:
             run.end_with(contact)
         return run
 

@@ -104,7 +104,7 @@ def test_a_tiling_goes_on_unchanged():
     assert measured.queue.slots() == other.queue.slots()
     events = [
         [(e.kind, e.removed, e.added, e.time.low) for e in islice(driver.events(scene.end), 50)]
-        for driver in (Driver(lambda: scene, kinetic) for kinetic in (measured, other))
+        for driver in (Driver(scene, kinetic) for kinetic in (measured, other))
     ]
     assert len(events[0]) == 50
     assert events[0] == events[1]

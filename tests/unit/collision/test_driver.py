@@ -84,7 +84,7 @@ def test_the_tiling_is_asked_for_no_more_than_observers_listen_to(levels, monkey
         monkeypatch.setattr(Tiling, name, watched(name, getattr(Tiling, name)))
     listeners = [Listener(level) for level in levels]
     scene = generate("convex", 3)
-    driver = Driver(lambda: scene, observers=listeners)
+    driver = Driver(scene, observers=listeners)
 
     assert driver.start("lazy") is None
     contact = driver.run(scene.end)
@@ -103,11 +103,11 @@ def test_all_levels_receive_the_same_times_and_events():
     listeners = [Listener(level) for level in (TIMES, EVENTS, CHANGES)]
     scene = generate("convex", 3)
     for listener in listeners:
-        driver = Driver(lambda: scene, observers=[listener])
+        driver = Driver(scene, observers=[listener])
         driver.start("greedy")
         driver.run(scene.end)
     together = [Listener(level) for level in (TIMES, EVENTS, CHANGES)]
-    driver = Driver(lambda: scene, observers=together)
+    driver = Driver(scene, observers=together)
     driver.start("greedy")
     driver.run(scene.end)
 
@@ -120,16 +120,20 @@ def test_a_contact_at_the_start_has_no_tiling():
     p = Body("p", [(0, 0)], Translation([0, 1]))
     scene = Scene([p, Body("q", [(0, 0), (1, 0)])], time=(0, 1))
     listener = Listener(CHANGES)
-    driver = Driver(lambda: scene, observers=[listener])
+    driver = Driver(scene, observers=[listener])
 
     assert driver.start("lazy") == first_contact(scene)
-    assert (driver.tiling, driver.passed(), listener.heard) == (None, None, ["on_initial_contact"])
+    assert (driver.tiled.tiling, driver.passed(), listener.heard) == (
+        None,
+        None,
+        ["on_initial_contact"],
+    )
 
 
 def test_a_time_without_events_is_reached_and_the_run_goes_on():
     scene = Scene([Body("p", [(0, 0)], Translation([0, 1])), Body("q", [(3, 0)])], time=(0, 9))
     listener = Listener(TIMES)
-    driver = Driver(lambda: scene, observers=[listener])
+    driver = Driver(scene, observers=[listener])
     driver.start("lazy")
 
     assert driver.run(scene.start + 1) is None
@@ -143,7 +147,7 @@ def test_a_time_without_events_is_reached_and_the_run_goes_on():
 def test_a_budget_of_events_holds_whoever_listens(level):
     scene = generate("stars", 6)
     listeners = [] if level is None else [Listener(level)]
-    driver = Driver(lambda: scene, observers=listeners, budget=Budget(2, None))
+    driver = Driver(scene, observers=listeners, budget=Budget(2, None))
     driver.start("greedy")
 
     with pytest.raises(BudgetExceeded, match="limit of events exceeded") as spent:

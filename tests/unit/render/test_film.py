@@ -173,10 +173,10 @@ def test_changes_of_the_engine_make_the_film_of_a_comparison_of_all(family, tili
     steps = 0
     for seed in range(2):
         scene = generate(family, seed)
-        driver = Driver(lambda scene=scene: scene)
+        driver = Driver(scene)
         driver.start(tiling)
-        node = driver.kinetic.vertices.nodes()
-        ours, whole = Tracker(driver.kinetic, node), Tracker(driver.kinetic, node)
+        node = driver.tiled.kinetic.vertices.nodes()
+        ours, whole = Tracker(driver.tiled.kinetic, node), Tracker(driver.tiled.kinetic, node)
         driver.observers.append(ours)
         while steps < 60 * (seed + 1) and (events := driver.advance(scene.end)) is not None:
             if events:

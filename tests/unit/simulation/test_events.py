@@ -62,7 +62,7 @@ def test_nobody_looks_and_no_exact_time_is_computed_but_the_engine_s(family, run
     for tiling in ("greedy", "lazy"):
         kinetic = start_tiling(scene, tiling, scene.start)
         computed.clear()
-        told = len(list(Driver(lambda: scene, kinetic).events(end)))
+        told = len(list(Driver(scene, kinetic).events(end)))
         needed = len(computed)
         simulation = Simulation(scene, tiling=tiling)
         computed.clear()

@@ -93,7 +93,7 @@ def test_the_diagonal_of_a_bitangent_that_becomes_vertical_is_found():
     """Also one that starts where the bitangent does; else the tiling is built anew."""
     scene = crowd(40, Random(1), radius=60, end=100)
     kinetic = start_tiling(scene, "greedy", QQ(0))
-    for _ in Driver(lambda: scene, kinetic).events(scene.end):
+    for _ in Driver(scene, kinetic).events(scene.end):
         if kinetic.stats.total >= 300:
             break
 

@@ -131,7 +131,7 @@ def test_long_chains_are_searched():
     steps, ends = {}, set()
     for chains in ("linked", "searchable", "auto"):
         kinetic = started(scene, chains=chains)
-        Driver(lambda scene=scene: scene, kinetic).run(scene.end)
+        Driver(scene, kinetic).run(scene.end)
         trees = kinetic.structure.trees
         ends.add(str(structure_of(kinetic.structure)))
         assert kinetic.stats.events["x-order"] == swaps
@@ -321,7 +321,7 @@ def changes_of_tangents(scene):
     kinetic = start_tiling(scene, "incremental", scene.start)
     before = [tree.parent[:] for tree in kinetic.structure.trees]
     counts = [[0] * len(parents) for parents in before]
-    for _ in Driver(lambda: scene, kinetic).events(scene.end):
+    for _ in Driver(scene, kinetic).events(scene.end):
         for tree, parents, count in zip(kinetic.structure.trees, before, counts, strict=True):
             for p, z in enumerate(tree.parent):
                 if z != parents[p]:
@@ -383,7 +383,7 @@ def test_theorem_3_4():
     for seed in range(3):
         scene = spread(40, seed)
         kinetic = started(scene, fan=True)
-        Driver(lambda scene=scene: scene, kinetic).run(scene.end)
+        Driver(scene, kinetic).run(scene.end)
         assert kinetic.stats.total < kinetic.fan.changes < 40 ** (7 / 3)
 
 

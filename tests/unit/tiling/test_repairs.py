@@ -110,7 +110,7 @@ def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
     scene = Scene([*grid, *row], (0, 14))
     kinetic = start_tiling(scene, "lazy", QQ(0))
 
-    assert sum(1 for _ in Driver(lambda: scene, kinetic).events(scene.end)) > 1000
+    assert sum(1 for _ in Driver(scene, kinetic).events(scene.end)) > 1000
     assert kinetic.stats.rebuilds == 0
 
 
