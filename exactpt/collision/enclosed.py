@@ -32,7 +32,7 @@ from typing import Final, final
 
 from exactpt.collision.detector import first_contact
 from exactpt.errors import carrying
-from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+from exactpt.geometry.polygon import near_groups
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
@@ -246,11 +246,9 @@ class _Search:
         if any(surely_passed(a, b, edge, since, t, e) for a, b, edge, e in self._passing):
             return True
         bodies = self._scene.bodies
-        boxes = boxes_of_points([_corners(body, t) for body in bodies])
         return any(
             surely_meet(bodies[i], bodies[j], t, self._errors[i] + self._errors[j])
-            for first, second in overlapping_pairs(boxes)
-            for i, j in self._selection.of(zip(first.tolist(), second.tolist(), strict=True))
+            for i, j in self._selection.of(near_groups([_corners(body, t) for body in bodies]))
         )
 
 

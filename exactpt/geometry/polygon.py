@@ -6,11 +6,16 @@ All answers are exact. Float boxes, rounded outward, only rule out pairs of edge
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import Final
 
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.geometry.simple import edges
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
+
+FEW: Final = 12
+"""Maximum number of groups of points whose boxes are all compared."""
 
 
 def signed_area2(points: Sequence[Point]) -> QQ:
@@ -62,16 +67,28 @@ def first_touch(
     for i, (u, v) in enumerate(pairs):
         if points[u] == points[v]:
             return i, i
-    from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+    near = near_groups([(points[u], points[v]) for u, v in pairs])
+    return min((ij for ij in near if _touch(points, *(pairs[k] for k in ij))), default=None)
 
-    boxes = boxes_of_points([(points[u], points[v]) for u, v in pairs])
-    found: list[tuple[int, int]] = []
-    for first, second in overlapping_pairs(boxes):
-        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+
+def near_groups(groups: Sequence[Sequence[Point]]) -> Iterator[tuple[int, int]]:
+    """Yield the pairs i < j of groups of points whose bounding boxes, rounded outward, intersect.
+
+    A few groups are compared exactly, without numpy.
+    """
+    if len(groups) > FEW:
+        from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+
+        for first, second in overlapping_pairs(boxes_of_points(groups)):
+            for i, j in zip(first.tolist(), second.tolist(), strict=True):
+                ask()
+                yield i, j
+        return
+    boxes = [(min(x), max(x), min(y), max(y)) for x, y in (zip(*g, strict=True) for g in groups)]
+    for (i, (left, right, low, high)), (j, b) in combinations(enumerate(boxes), 2):
+        if left <= b[1] and b[0] <= right and low <= b[3] and b[2] <= high:
             ask()
-            if _touch(points, pairs[i], pairs[j]):
-                found.append((i, j))
-    return min(found, default=None)
+            yield i, j
 
 
 def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> bool:

@@ -11,7 +11,7 @@ w > 0, and the determinant d = |a b v| of the rows (x, y, w):
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple, final
 
@@ -83,13 +83,15 @@ class FeaturePair:
     @cached_property
     def limits(self) -> tuple[IntPoly, ...]:
         """Polynomials that are not negative where the foot is on the edge; none of a vertex."""
-        return tuple(self._each_limit())
+        return (self._from_first, self._from_last) if self.is_of_edge else ()
 
-    def _each_limit(self) -> Iterator[IntPoly]:
-        if self.is_of_edge:
-            a, b = self.ends
-            yield _dot(self._along, _vector(a, self.v))
-            yield _dot(self._along, _vector(self.v, b))
+    @cached_property
+    def _from_first(self) -> IntPoly:
+        return _dot(self._along, _vector(self.ends[0], self.v))
+
+    @cached_property
+    def _from_last(self) -> IntPoly:
+        return _dot(self._along, _vector(self.v, self.ends[1]))
 
     @cached_property
     def _along(self) -> tuple[IntPoly, IntPoly]:
@@ -115,9 +117,18 @@ class FeaturePair:
 
     def holds(self, t: AlgebraicNumber) -> bool:
         """Return True if the foot of the perpendicular is on the edge, which has a length."""
-        return all(t.sign_of(f) >= 0 for f in self._each_limit()) and (
-            not self.is_of_edge or t.sign_of(_squared_length(self._along)) > 0
-        )
+        return self._is_on(t.sign_of)
+
+    def holds_after(self, t: AlgebraicNumber) -> bool:
+        """Return True if it is so just after a time."""
+        return self._is_on(t.sign_after)
+
+    def _is_on(self, sign: Callable[[IntPoly], int]) -> bool:
+        """Return True if no limit is negative, and not both are 0: as for an edge of length 0."""
+        if not self.is_of_edge:
+            return True
+        first = sign(self._from_first)
+        return first >= 0 and (last := sign(self._from_last)) >= 0 and first + last > 0
 
     def first_time(self, squared: QQ, begin: AlgebraicNumber, until: QQ) -> AlgebraicNumber | None:
         """Return the first time in (begin, until] at which the squared distance has a value.
@@ -152,12 +163,6 @@ class FeaturePair:
     def is_inside(self, t: AlgebraicNumber) -> bool:
         """Return True for two vertices, or if the foot of the perpendicular is inside the edge."""
         return all(t.sign_of(f) > 0 for f in self.limits)
-
-    def holds_after(self, t: AlgebraicNumber) -> bool:
-        """Return True if it is so just after a time."""
-        return all(t.sign_after(f) >= 0 for f in self.limits) and (
-            not self.is_of_edge or t.sign_after(_squared_length(self._along)) > 0
-        )
 
 
 def feature_pairs(

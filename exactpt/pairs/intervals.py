@@ -8,6 +8,7 @@ any two consecutive ones, decide.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
@@ -24,12 +25,12 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_rigid
 from exactpt.pairs.features import feature_pairs
-from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.near import Spans, pairs_that_come_near
 from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.overlap import bodies_meet
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
-from exactpt.scene.scene import Scene, a_scene
+from exactpt.scene.scene import Scene, a_scene, scene_of
 
 FEW: Final = 100
 """Maximum number of pairs of vertices of two bodies whose features are compared exactly at once."""
@@ -75,14 +76,16 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
         InputError: if there is no such body, or both are the same.
     """
     two_bodies(scene, a, b)
-    return _of_two(scene, *(body for body in scene.bodies if body.name in (a, b)))
+    bodies = [body for body in scene.bodies if body.name in (a, b)]
+    near = pairs_that_come_near(scene_of(bodies, scene._start, scene._end), QQ(0))
+    return _of_two(scene, bodies[0], bodies[1], near.get((0, 1), []))
 
 
-def _of_two(scene: Scene, a: Body, b: Body) -> list[ContactInterval]:
+def _of_two(scene: Scene, a: Body, b: Body, near: Spans) -> list[ContactInterval]:
     """Return the intervals of two bodies, given in the order of the scene."""
     return [
         ContactInterval(a.name, b.name, start.simplified(), end.simplified())
-        for start, end in intervals(a, b, scene._start, scene._end)
+        for start, end in intervals(a, b, scene._start, scene._end, near)
     ]
 
 
@@ -107,10 +110,11 @@ def contacts(
     """
     a_scene(scene)
     selection = Selection(scene, between, ignoring)
+    near = pairs_that_come_near(scene, QQ(0))
     found = [
         interval
-        for i, j in selection.of(pairs_that_come_near(scene, QQ(0)))
-        for interval in _of_two(scene, scene.bodies[i], scene.bodies[j])
+        for i, j in selection.of(near)
+        for interval in _of_two(scene, scene.bodies[i], scene.bodies[j], near[i, j])
     ]
     found.sort(key=lambda interval: (interval.a, interval.b))
     found.sort(key=lambda interval: _in_order(interval.start))
@@ -121,10 +125,13 @@ _in_order = cmp_to_key(AlgebraicNumber.compare)
 
 
 def intervals(
-    a: Body, b: Body, start: QQ, end: QQ
+    a: Body, b: Body, start: QQ, end: QQ, near: Spans | None = None
 ) -> Iterator[tuple[AlgebraicNumber, AlgebraicNumber]]:
-    """Yield the maximal closed intervals in [start, end] in which two bodies intersect."""
-    times = incidence_times(a, b, start, end)
+    """Yield the maximal closed intervals in [start, end] in which two bodies intersect.
+
+    Outside of the spans ``near``, if they are given, they do not.
+    """
+    times = incidence_times(a, b, start, end, near)
     begin = AlgebraicNumber(start) if bodies_meet(a, b, start) else None
     last = AlgebraicNumber(start)
     for time in times:
@@ -143,7 +150,9 @@ def intervals(
         yield begin, last
 
 
-def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumber]:
+def incidence_times(
+    a: Body, b: Body, start: QQ, end: QQ, near: Spans | None = None
+) -> list[AlgebraicNumber]:
     """Return the times in (start, end] of incidences of a vertex and an edge of two bodies.
 
     In increasing order, each once. Where a vertex stays on the line of an edge, the times at
@@ -153,8 +162,14 @@ def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumbe
     # Two vertices also lie on edges, unless there are none, or one has no length for a moment; they
     # have times of their own where a vertex moves along an edge.
     corners = not (a.edges or b.edges) or not (is_rigid(a) and is_rigid(b))
-    found = (_times(a, b, stretch, corners=corners) for stretch in stretches(a, b, start, end))
-    return _distinct(chain.from_iterable(found))
+    begins = [start] if near is None else [begin for begin, _ in near]
+    ends = [end] if near is None else [stop for _, stop in near]
+    found: list[AlgebraicNumber] = []
+    for stretch in stretches(a, b, start, end):
+        before = bisect_right(begins, stretch.end)
+        if before and ends[before - 1] > stretch.begin:
+            found += _times(a, b, stretch, corners=corners)
+    return _distinct(found)
 
 
 def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:

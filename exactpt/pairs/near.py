@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -16,36 +17,49 @@ from exactpt.pairs.pieces import ScenePieces, linear_pieces
 from exactpt.scene.scene import Scene
 
 FEW: Final = 4
-"""Maximum number of bodies of which all pairs are named at once."""
+"""Maximum number of bodies of which all pairs are named at once, if none changes its motion."""
 SLABS: Final = 64
 """Minimum number of slabs in the time span, of motions that are not linear."""
 
 
-def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
-    """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect.
+Spans: TypeAlias = "list[tuple[QQ, QQ]]"
+"""Disjoint closed spans of time, but for their ends, in order."""
 
-    A superset of those whose distance in the maximum norm is ever at most the reach. (The radii
-    of rounded bodies are added to it.)
+
+def pairs_that_come_near(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
+    """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect, and when.
+
+    A superset of those whose distance in the maximum norm is ever at most the reach, in order,
+    and of the times at which it is. (The radii of rounded bodies are added to it.)
     """
-    if len(scene.bodies) <= FEW:
-        return list(combinations(range(len(scene.bodies)), 2))
+    bodies, start, end = scene.bodies, scene._start, scene._end
+    if len(bodies) <= FEW and not any(body._breakpoints for body in bodies):
+        return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
+    found: dict[tuple[int, int], Spans] = {}
     rows = linear_pieces(scene)
     if rows is not None:
-        grown_boxes = PieceBoxes(rows, enclosing_floats(reach / 2)[1])
-        near = ScenePieces(rows, scene._start, scene._end, grown_boxes).near()
-        return sorted({(min(a.body, b.body), max(a.body, b.body)) for _, a, b in near})
+        boxes = PieceBoxes(rows, enclosing_floats(reach / 2)[1])
+        for _, a, b in ScenePieces(rows, start, end, boxes).near():
+            pair = min(a.body, b.body), max(a.body, b.body)
+            found.setdefault(pair, []).append((max(a.start, b.start), min(a.end, b.end)))
+    else:
+        for now, later, (i, j) in _near_slabs(scene, reach):
+            for pair in zip(i.tolist(), j.tolist(), strict=True):
+                found.setdefault(pair, []).append((now, later))
+    return {pair: sorted(found[pair]) for pair in sorted(found)}
+
+
+def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
+    """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
     swept = SweptEdges(scene.bodies, scene._start, scene._end)
     units = [power_of_two(-scale) for scale in swept.vertices.frame.scale]
     halves = [reach / 2 + body._radius for body in scene.bodies]
     by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
-    found: set[tuple[int, int]] = set()
 
-    def near_bodies(now: QQ, later: QQ) -> Near:
+    def near(now: QQ, later: QQ) -> Near:
         boxes = swept.of_bodies(swept.during(now, later))
         i, j = zip(*overlapping_pairs(grown(boxes, by) if by.any() else boxes), strict=True)
         return np.concatenate(i), np.concatenate(j)
 
     longest, many = (scene._end - scene._start) / SLABS, 8 * len(scene.bodies) + 64
-    for _, _, (i, j) in swept.slabs(near_bodies, longest, many):
-        found.update(zip(i.tolist(), j.tolist(), strict=True))
-    return sorted(found)
+    return swept.slabs(near, longest, many)

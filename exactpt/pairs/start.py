@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exactpt.certificates.positions import positions_at
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import segments_meet
+from exactpt.geometry.polygon import near_groups, segments_meet
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
@@ -222,13 +222,9 @@ def _near_edges(
         found += [Edge(i, k, at[u], at[v], (u, v)) for k, (u, v) in enumerate(pairs)]
         if not pairs:
             found.append(Edge(i, -1, at[0], at[0], (0, 0)))
-    if not found:
-        return
-    for first, second in overlapping_pairs(boxes_of_points([(e.a, e.b) for e in found])):
-        for i, j in zip(first.tolist(), second.tolist(), strict=True):
-            ask()
-            if found[i].body != found[j].body:
-                yield found[i], found[j]
+    for i, j in near_groups([(e.a, e.b) for e in found]):
+        if found[i].body != found[j].body:
+            yield found[i], found[j]
 
 
 def incidences(e: Edge, f: Edge) -> Iterator[Touch]:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import segments_meet
-from exactpt.geometry.predicates import Point
-from exactpt.kernel.budget import ask
+from exactpt.geometry.polygon import near_groups, segments_meet
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.inside import one_is_inside
@@ -61,20 +58,9 @@ def segments_of(body: Body) -> list[tuple[int, int]]:
 def meet(a: Body, b: Body, t: QQ) -> bool:
     """Return True if the cores of two bodies have a point in common at a rational time."""
     p, q = a._at(t), b._at(t)
-    return _boundaries_meet(p, segments_of(a), q, segments_of(b)) or one_is_inside(a, p, b, q)
-
-
-def _boundaries_meet(
-    p: Sequence[Point],
-    p_edges: Sequence[tuple[int, int]],
-    q: Sequence[Point],
-    q_edges: Sequence[tuple[int, int]],
-) -> bool:
-    ends = [(p[i], p[j]) for i, j in p_edges] + [(q[i], q[j]) for i, j in q_edges]
-    count = len(p_edges)
-    for first, second in overlapping_pairs(boxes_of_points(ends)):
-        for i, j in zip(first.tolist(), second.tolist(), strict=True):
-            ask()
-            if i < count <= j and segments_meet(*ends[i], *ends[j]):
-                return True
-    return False
+    ends = [(p[i], p[j]) for i, j in segments_of(a)]
+    count = len(ends)
+    ends += [(q[i], q[j]) for i, j in segments_of(b)]
+    return any(
+        i < count <= j and segments_meet(*ends[i], *ends[j]) for i, j in near_groups(ends)
+    ) or one_is_inside(a, p, b, q)

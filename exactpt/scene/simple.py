@@ -68,20 +68,16 @@ def _not_simple(
 
 def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     """Check that disjoint rings are outlines and holes of disjoint parts."""
-    from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-    from exactpt.geometry.polygon import contains
+    from exactpt.geometry.polygon import contains, near_groups
 
     rings = [ring for rings in body.parts for ring in rings]
     parts = [k for k, rings in enumerate(body.parts) for _ in rings]
     outlines = [k for k, part in enumerate(parts) if k == 0 or parts[k - 1] != part]
     # A ring is inside another ring only if their boxes, rounded outward, intersect.
     near: list[list[int]] = [[] for _ in rings]
-    for first, second in overlapping_pairs(
-        boxes_of_points([points[ring.start : ring.stop] for ring in rings])
-    ):
-        for i, j in zip(first.tolist(), second.tolist(), strict=True):
-            near[i].append(j)
-            near[j].append(i)
+    for i, j in near_groups([points[ring.start : ring.stop] for ring in rings]):
+        near[i].append(j)
+        near[j].append(i)
 
     def around(i: int) -> set[int]:
         """Return the rings that contain the first vertex of a ring."""

@@ -6,7 +6,10 @@ from random import Random
 import pytest
 
 from exactpt import Body, Pieces, Rigid, Scene, Translation, contact_intervals, contacts
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.swept import SweptBoxes
+from exactpt.pairs import intervals as intervals_module
+from exactpt.pairs.intervals import ContactInterval, intervals
 
 PIECES = 20
 
@@ -39,7 +42,30 @@ def test_contacts_of_many_pieces_need_few_boxes_and_lose_no_pair(others, monkeyp
     found = contacts(scene)
 
     assert len(counted) <= (64 + 2 * len(cuts) if others else 0)
-    names = [body.name for body in bodies]
-    every = [i for a, b in combinations(names, 2) for i in contact_intervals(scene, a, b)]
+    every = [
+        ContactInterval(a.name, b.name, begin.simplified(), end.simplified())
+        for a, b in combinations(bodies, 2)
+        for begin, end in intervals(a, b, QQ(0), QQ(100))
+    ]
     assert len(found) == len(every) >= 4
     assert all(interval in every for interval in found)
+
+
+def test_features_are_compared_in_pieces_that_come_near_alone(monkeypatch):
+    """Two bodies of 20 pieces each were compared in every one."""
+    rng = Random(5)
+    a, b = (walker(name, rng) for name in "ab")
+    scene = Scene([a, b], time=(0, 100))
+    every = len({t for body in (a, b) for t in body._breakpoints if 0 < t < 100}) + 1
+    times, compared = intervals_module._times, []
+    monkeypatch.setattr(
+        intervals_module, "_times", lambda *two, **k: compared.append(1) or times(*two, **k)
+    )
+
+    found = contact_intervals(scene, "a", "b")
+
+    assert len(compared) < every / 2
+    compared.clear()
+    whole = intervals(a, b, QQ(0), QQ(100))
+    assert [(i.start, i.end) for i in found] == [(s.simplified(), e.simplified()) for s, e in whole]
+    assert len(compared) == every
