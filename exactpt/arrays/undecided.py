@@ -39,8 +39,9 @@ def decide(contacts: Contacts, k: int, candidates: Sequence[Candidate], *, uncle
             return
     a, b = scene.bodies
     squared = (a._radius + b._radius) ** 2
-    p, q = straight_pieces(a), straight_pieces(b)
-    if p and q and not squared:
+    p = None if squared else straight_pieces(a)
+    q = p and straight_pieces(b)
+    if p and q:
         span = span_of(scene._start, scene._end)
         found = first_incidence(p[0][0], q[0][0], span, candidates)
     else:

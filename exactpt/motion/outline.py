@@ -190,18 +190,15 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
         None if all numbers are doubles, a body deforms or is out of the range of doubles, or the
         bodies are not far from the origin compared with their distances.
     """
+    if len(bodies) < 2 or all(map(_is_exact, bodies)):
+        return None
     firsts: list[tuple[float, float]] = []
-    is_exact = True
     for body in bodies:
         near, motion = body._shape.near, pieces_of(body.motion)[0][0]
         if not isinstance(motion, Translation) or not body.vertices:
             return None
-        is_exact &= near is not None and near.is_exact
-        is_exact &= None not in (motion.x._doubles, motion.y._doubles)
         x, y = (near.xs[0], near.ys[0]) if near else map(_constant, body.vertices[0])
         firsts.append((x + _linear(motion.x)[0], y + _linear(motion.y)[0]))
-    if is_exact or len(firsts) < 2:
-        return None
     for places in zip(*firsts, strict=True):
         least, most = min(places), max(places)
         if max(-least, most) > FAR * (most - least):
@@ -212,6 +209,17 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
     assert isinstance(motion, Translation)  # noqa: S101 - seen above
     a, b = bodies[0].vertices[0]
     return a._at(QQ(0)) + motion.x._at(QQ(0)), b._at(QQ(0)) + motion.y._at(QQ(0))
+
+
+def _is_exact(body: Body) -> bool:
+    """Return True if doubles have the vertices and the first motion, a translation, exactly."""
+    near, motion = body._shape.near, pieces_of(body.motion)[0][0]
+    return (
+        isinstance(motion, Translation)
+        and near is not None
+        and near.is_exact
+        and None not in (motion.x._doubles, motion.y._doubles)
+    )
 
 
 def _constant(f: Polynomial) -> float:
