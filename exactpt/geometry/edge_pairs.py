@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Floats, overlapping_pairs
+from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.geometry.ragged import segments_meet
 from exactpt.kernel.budget import ask
-from exactpt.kernel.rounding import SLACK, TINY, U
 
-K: Final = 8.0 * U
 CHUNK: Final = 1 << 13
 """Number of pairs that are compared at once, so that their numbers stay in the cache."""
 
@@ -38,27 +36,8 @@ def unsure_pairs(
             ask()
             i, j = first[k : k + CHUNK], second[k : k + CHUNK]
             unsure = (j == i + 1) | (closed & (j - i == len(rows) - 1))
-            unsure |= ~_surely_apart(ends[:, i], ends[:, j], error)
+            e, f = ends[:, i], ends[:, j]  # differences of two coordinates have twice their error
+            u, v, p = (tuple(side) for side in (e[2:] - e[:2], f[2:] - f[:2], f[:2] - e[:2]))
+            unsure |= ~segments_meet(u, v, p, 2.0 * error, 2.0 * error)[0]
             pairs += zip(i[unsure].tolist(), j[unsure].tolist(), strict=True)
     return pairs
-
-
-@np.errstate(all="ignore")
-def _surely_apart(e: Floats, f: Floats, error: float) -> NDArray[np.bool_]:
-    """Return for which pairs of edges, in columns, one is surely beside the line of the other."""
-    apart = np.zeros(e.shape[1], np.bool_)
-    for (ax, ay, bx, by), ends in ((e, f), (f, e)):
-        ux, uy = bx - ax, by - ay
-        left, right = ~np.zeros_like(apart), ~np.zeros_like(apart)
-        for x, y in (ends[:2], ends[2:]):
-            vx, vy = x - ax, y - ay
-            p, q = ux * vy, uy * vx
-            bound = K * (np.abs(p) + np.abs(q)) + TINY
-            if error:
-                size = np.abs(ux) + np.abs(uy) + np.abs(vx) + np.abs(vy)
-                bound = (bound + 2.0 * error * (size + 4.0 * error)) * SLACK
-            value = p - q
-            left &= value > bound
-            right &= value < -bound
-        apart |= left | right
-    return apart

@@ -5,6 +5,7 @@ It is conservative: a pair that is not reported does not touch; a reported pair 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
@@ -16,7 +17,7 @@ from exactpt.kernel.doubles import middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
-from exactpt.motion.outline import Outline
+from exactpt.motion.outline import Outline, Straight
 from exactpt.motion.slabs import Near, slabs
 from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 
@@ -29,91 +30,55 @@ Indices: TypeAlias = NDArray[np.int64]
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
 
-_COLUMNS: Final = (
-    "_c", "_c_error", "_end", "_high", "_low", "_reach", "_start", "_v", "_v_error", "body",
-)  # fmt: skip
-
 
 @final
 class PieceBoxes:
-    """Boxes of rows: of the shape at rest, with the motion c + v t during [start, end].
+    """Boxes of motion pieces: of the shape at rest, with the motion c + v t during [start, end].
 
     They contain all points within the radius of a body.
 
     Args:
-        rows: the pieces.
-        margin: the additional growth of the boxes, on each side.
+        body: the number of the body of each piece.
+        columns: shape (13, n): the box of the shape at rest, c, v, at least the radius, bounds on
+            the errors of c and of v, and the start and the end of the piece, rounded outward.
+        outline: the vertices of a piece, of which oriented boxes are made on demand.
 
     Attributes:
-        body: the number of the body of each piece.
+        body: as given.
         drift: the median of the velocities.
     """
 
-    __slots__ = (*_COLUMNS, "_oriented", "_outline", "drift")
-
     @np.errstate(all="ignore")
-    def __init__(self, rows: Sequence[MotionPiece], margin: float = 0.0) -> None:
-        self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
-        straights = [row.straight for row in rows]
-        shapes = [straight.shape for straight in straights]
-        sides = [(shape.low_x, shape.high_x, shape.low_y, shape.high_y) for shape in shapes]
-        reach = np.array([margin + radius_above(straight.body) for straight in straights])
-        self._put(np.array(sides).reshape(-1, 4), np.nextafter(reach, np.inf) * (reach > 0.0))
-        self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
-        self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
-        errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
-        self._c_error, self._v_error = np.array(errors).reshape(-1, 2).T
-        self._start = np.array([enclosing_floats(row.start)[0] for row in rows])
-        self._end = np.array([enclosing_floats(row.end)[1] for row in rows])
-        self.drift: Floats = middles(self._v) if len(rows) else np.zeros(2)
-        self._outline: Callable[[int], Outline] = lambda k: straights[k].shape
+    def __init__(self, body: Indices, columns: Floats, outline: Callable[[int], Outline]) -> None:
+        self.body = body
+        self._columns = columns
+        boxes, self._c, self._v = columns[:4].T, columns[4:6].T, columns[6:8].T
+        self._reach, self._c_error, self._v_error, self._start, self._end = columns[8:]
+        boxes = grown(boxes, self._reach[:, None]) if self._reach.any() else boxes
+        self._low, self._high = boxes[:, ::2], boxes[:, 1::2]
+        self.drift: Floats = middles(self._v) if len(body) else np.zeros(2)
+        self._outline = outline
         self._oriented: OrientedBoxes | None = None
 
     @classmethod
-    def of_doubles(
-        cls, numbers: Floats, start: QQ, end: QQ, outline: Callable[[int], Outline]
-    ) -> PieceBoxes:
-        """Boxes of one piece for each body, all during one span, known without error.
-
-        Args:
-            numbers: shape (n, 9): the box, c, v, and at least the radius.
-            start: the start of the span.
-            end: its end.
-            outline: the vertices of a body, exactly.
-        """
-        self = cls.__new__(cls)
-        n = len(numbers)
-        self.body = np.arange(n)
-        self._put(numbers[:, :4], numbers[:, 8])
-        self._c, self._v = numbers[:, 4:6], numbers[:, 6:8]
-        self._c_error = self._v_error = np.zeros(n)
-        self._start = np.full(n, enclosing_floats(start)[0])
-        self._end = np.full(n, enclosing_floats(end)[1])
-        self.drift = middles(self._v)
-        self._put_outlines(outline)
-        return self
-
-    def _put(self, boxes: Boxes, reach: Floats) -> None:
-        """Keep the boxes of the shapes, grown."""
-        self._reach = reach
-        boxes = grown(boxes, reach[:, None]) if reach.any() else boxes
-        self._low, self._high = boxes[:, ::2], boxes[:, 1::2]
+    def of(cls, rows: Sequence[MotionPiece], margin: float = 0.0) -> PieceBoxes:
+        """Return the boxes of some pieces, grown by a margin on each side."""
+        numbers = [(*_numbers(row.straight, margin), *_around(row.start, row.end)) for row in rows]
+        body = np.array([row.body for row in rows], dtype=np.int64)
+        columns = np.array(numbers).reshape(-1, 13).T
+        return cls(body, columns, lambda k: rows[k].straight.shape)
 
     def __len__(self) -> int:
         return len(self.body)
 
     def joined(self, other: PieceBoxes) -> PieceBoxes:
         """Return the boxes of these pieces, and then of others."""
-        both = PieceBoxes.__new__(PieceBoxes)
-        for name in _COLUMNS:
-            setattr(both, name, np.concatenate((getattr(self, name), getattr(other, name))))
-        both.drift, n = self.drift, len(self)
-        both._put_outlines(lambda k: self._outline(k) if k < n else other._outline(k - n))  # noqa: SLF001
-        return both
-
-    def _put_outlines(self, outline: Callable[[int], Outline]) -> None:
-        """Keep the outlines, of which oriented boxes are made on demand."""
-        self._outline, self._oriented = outline, None
+        n, first, second = len(self), self._outline, other._outline
+        return PieceBoxes(
+            np.concatenate((self.body, other.body)),
+            np.concatenate((self._columns, other._columns), axis=1),
+            lambda k: first(k) if k < n else second(k - n),
+        )
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> tuple[Indices, Boxes]:
@@ -175,7 +140,7 @@ class PieceBoxes:
         """Narrow bounds of the times at which two pieces touch by oriented boxes, in place."""
         if self._oriented is None:
             motions = (*self._c.T, *self._v.T, self._c_error, self._v_error, self._reach)
-            outlines = [self._outline(k) for k in range(len(self.body))]
+            outlines = [self._outline(k) for k in range(len(self))]
             self._oriented = OrientedBoxes(outlines, np.array(motions))
         self._oriented.narrow(i, j, low, high)
 
@@ -188,6 +153,14 @@ class PieceBoxes:
         there = 0.5 * (self._low + self._high) + self._c + self._v * now
         gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
         return float(gap / np.hypot(*(self._v - self.drift).T).mean())
+
+
+def _numbers(s: Straight, margin: float) -> tuple[float, ...]:
+    """Return the box of a shape, its motion, its reach, and bounds on the errors of c and v."""
+    shape, reach = s.shape, margin + radius_above(s.body)
+    box = shape.low_x, shape.high_x, shape.low_y, shape.high_y
+    reach = math.nextafter(reach, math.inf) if reach else 0.0
+    return (*box, s.cx, s.cy, s.vx, s.vy, reach, s.c_error + shape.error, s.v_error)
 
 
 def radius_above(body: Body) -> float:

@@ -38,7 +38,7 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans
     found: dict[tuple[int, int], Spans] = {}
     rows = linear_pieces(scene)
     if rows is not None:
-        boxes = PieceBoxes(rows, enclosing_floats(reach / 2)[1])
+        boxes = PieceBoxes.of(rows, enclosing_floats(reach / 2)[1])
         for _, a, b in ScenePieces(rows, start, end, boxes).near():
             pair = min(a.body, b.body), max(a.body, b.body)
             found.setdefault(pair, []).append((max(a.start, b.start), min(a.end, b.end)))

@@ -100,7 +100,7 @@ class Obstacles:
         self._scene = scene
         self.origin = far_origin(scene.bodies)
         self.rows: list[MotionPiece] | None = linear_pieces(scene)
-        self._row_boxes = None if self.rows is None else PieceBoxes(self.rows)
+        self._row_boxes = None if self.rows is None else PieceBoxes.of(self.rows)
         self._slab_boxes: SlabBoxes | None = None
 
     def near(self, rows: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
@@ -113,7 +113,7 @@ class Obstacles:
         if self._row_boxes is None or not self._row_boxes:
             return []
         n, m = len(self._row_boxes), len(rows)
-        boxes = self._row_boxes.joined(PieceBoxes(rows))
+        boxes = self._row_boxes.joined(PieceBoxes.of(rows))
         i, j = np.tile(np.arange(n), m), np.repeat(np.arange(n, n + m), n)
         enter, leave = boxes.windows(i, j, -np.inf, np.inf)
         meet = np.nonzero(enter <= leave)[0]

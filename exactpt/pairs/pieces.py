@@ -92,7 +92,7 @@ class ScenePieces:
             return cls(rows, start, end, pairs)
         from exactpt.pairs.boxes import PieceBoxes
 
-        return cls(rows, start, end, PieceBoxes(rows, margin))
+        return cls(rows, start, end, PieceBoxes.of(rows, margin))
 
     def near_at_start(self) -> list[tuple[int, int]]:
         """Return the pairs i < j of bodies whose boxes intersect at the start."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import native
+from exactpt.kernel.numbers import enclosing_floats
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, rest_outline, straight_pieces
@@ -42,33 +43,34 @@ class _OnDemand(dict[int, MotionPiece]):
 def pieces_on_demand(scene: Scene) -> ScenePieces | None:
     """Return the pieces of a scene; None unless all are linear, small and exact in doubles."""
     bodies, start, end = scene.bodies, scene._start, scene._end
-    numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
-    if numbers is None:
+    columns = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
+    if columns is None:
         return None
+    columns[11], columns[12] = enclosing_floats(start)[0], enclosing_floats(end)[1]
 
     def outline(k: int) -> Outline:
         shape = rest_outline(bodies[k])
         assert shape is not None  # noqa: S101 - its numbers are doubles
         return shape
 
-    boxes = PieceBoxes.of_doubles(numbers, start, end, outline)
+    boxes = PieceBoxes(np.arange(len(bodies)), columns, outline)
     return ScenePieces(_OnDemand(scene), start, end, boxes)
 
 
 @np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
-    """Return the box, c, v and radius of each body; None unless all are small and linear."""
+    """Return the columns of `PieceBoxes` but times; None unless all are small and linear."""
     bends = bodies.coefficients[:, :, 2:].any()
     if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
         return None
     first = native(bodies.offsets[:-1])
-    numbers = np.zeros((len(bodies), 9))
-    numbers[:, 0:4:2] = np.minimum.reduceat(bodies.vertices, first)
-    numbers[:, 1:4:2] = np.maximum.reduceat(bodies.vertices, first)
+    columns = np.zeros((13, len(bodies)))
+    columns[0:4:2] = np.minimum.reduceat(bodies.vertices, first).T
+    columns[1:4:2] = np.maximum.reduceat(bodies.vertices, first).T
     for k in range(min(2, bodies.coefficients.shape[2])):
-        numbers[:, 4 + 2 * k : 6 + 2 * k] = bodies.coefficients[:, :, k]
-    numbers[:, 8] = bodies.radii
-    return numbers
+        columns[4 + 2 * k : 6 + 2 * k] = bodies.coefficients[:, :, k].T
+    columns[8] = bodies.radii
+    return columns
 
 
 def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
@@ -80,7 +82,9 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
         if known is None:
             return None
         numbers.append(known)
-    return np.array(numbers).reshape(-1, 9)
+    columns = np.zeros((13, len(bodies)))
+    columns[:9] = np.array(numbers).reshape(-1, 9).T
+    return columns
 
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:

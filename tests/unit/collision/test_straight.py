@@ -306,7 +306,7 @@ def test_boxes_of_rows_hold_their_bodies():
         scene = next(scenes(1, rng.random()))
         rows = linear_pieces(scene)
         origin = far_origin(scene.bodies) or (0, 0)
-        boxes = row_boxes.PieceBoxes(rows)
+        boxes = row_boxes.PieceBoxes.of(rows)
         low = rng.uniform(0, float(scene.end) / 2)
         high = low + rng.uniform(0, float(scene.end) / 2)
         active, places = boxes.during(low, high)

@@ -78,16 +78,16 @@ def test_rectangles_that_touch_at_a_time_are_not_separated_then():
             rows.append(MotionPiece(len(rows), straight, QQ(0), QQ(TIME)))
         times.append(t)
     i, j = np.arange(0, len(rows), 2), np.arange(1, len(rows), 2)
-    enter, leave = PieceBoxes(rows).windows(i, j, 0.0, float(TIME))
+    enter, leave = PieceBoxes.of(rows).windows(i, j, 0.0, float(TIME))
     assert (enter <= times).all()
     assert (times <= leave).all()
     low, high = np.zeros(len(i)), np.full(len(i), float(TIME))
-    PieceBoxes(rows).narrow(i, j, low, high)
+    PieceBoxes.of(rows).narrow(i, j, low, high)
     assert (low <= times).all()
     assert (times <= high).all()
     assert np.count_nonzero(high - low < 0.01) > 100  # and most of them only then
     now = np.array(times, dtype=float)
-    PieceBoxes(rows).narrow(j, i, now, later := now.copy())
+    PieceBoxes.of(rows).narrow(j, i, now, later := now.copy())
     assert (now == times).all()
     assert (later == times).all()
 
@@ -102,7 +102,7 @@ def test_rectangles_at_the_ends_of_the_doubles_exclude_nothing(vertices):
         for k, body in enumerate(bodies)
     ]
     low, high = np.zeros(1), np.array([1e300])
-    PieceBoxes(rows).narrow(np.array([0]), np.array([1]), low, high)
+    PieceBoxes.of(rows).narrow(np.array([0]), np.array([1]), low, high)
     assert low[0] == 0.0
     assert high[0] >= 0.0
 
@@ -115,7 +115,7 @@ def test_bug_joined_pieces_have_oriented_boxes_too():
     ]
     i, j = np.triu_indices(6, 1)
     ends = []
-    for boxes in (PieceBoxes(rows), PieceBoxes(rows[:2]).joined(PieceBoxes(rows[2:]))):
+    for boxes in (PieceBoxes.of(rows), PieceBoxes.of(rows[:2]).joined(PieceBoxes.of(rows[2:]))):
         low, high = np.zeros(len(i)), np.full(len(i), 3.0)
         boxes.narrow(i, j, low, high)
         ends.append((low > high).tolist())
