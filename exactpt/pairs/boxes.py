@@ -39,7 +39,7 @@ class PieceBoxes:
 
     Args:
         body: the number of the body of each piece.
-        columns: shape (13, n): the box of the shape at rest, c, v, at least the radius, bounds on
+        numbers: shape (n, 13): the box of the shape at rest, c, v, at least the radius, bounds on
             the errors of c and of v, and the start and the end of the piece, rounded outward.
         outline: the vertices of a piece, of which oriented boxes are made on demand.
 
@@ -49,11 +49,11 @@ class PieceBoxes:
     """
 
     @np.errstate(all="ignore")
-    def __init__(self, body: Indices, columns: Floats, outline: Callable[[int], Outline]) -> None:
+    def __init__(self, body: Indices, numbers: Floats, outline: Callable[[int], Outline]) -> None:
         self.body = body
-        self._columns = columns
-        boxes, self._c, self._v = columns[:4].T, columns[4:6].T, columns[6:8].T
-        self._reach, self._c_error, self._v_error, self._start, self._end = columns[8:]
+        self._numbers = numbers
+        boxes, self._c, self._v = numbers[:, :4], numbers[:, 4:6], numbers[:, 6:8]
+        self._reach, self._c_error, self._v_error, self._start, self._end = numbers[:, 8:].T.copy()
         boxes = grown(boxes, self._reach[:, None]) if self._reach.any() else boxes
         self._low, self._high = boxes[:, ::2], boxes[:, 1::2]
         self.drift: Floats = middles(self._v) if len(body) else np.zeros(2)
@@ -65,8 +65,7 @@ class PieceBoxes:
         """Return the boxes of some pieces, grown by a margin on each side."""
         numbers = [(*_numbers(row.straight, margin), *_around(row.start, row.end)) for row in rows]
         body = np.array([row.body for row in rows], dtype=np.int64)
-        columns = np.array(numbers).reshape(-1, 13).T
-        return cls(body, columns, lambda k: rows[k].straight.shape)
+        return cls(body, np.array(numbers).reshape(-1, 13), lambda k: rows[k].straight.shape)
 
     def __len__(self) -> int:
         return len(self.body)
@@ -76,7 +75,7 @@ class PieceBoxes:
         n, first, second = len(self), self._outline, other._outline
         return PieceBoxes(
             np.concatenate((self.body, other.body)),
-            np.concatenate((self._columns, other._columns), axis=1),
+            np.concatenate((self._numbers, other._numbers)),
             lambda k: first(k) if k < n else second(k - n),
         )
 

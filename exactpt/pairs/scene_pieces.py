@@ -43,34 +43,34 @@ class _OnDemand(dict[int, MotionPiece]):
 def pieces_on_demand(scene: Scene) -> ScenePieces | None:
     """Return the pieces of a scene; None unless all are linear, small and exact in doubles."""
     bodies, start, end = scene.bodies, scene._start, scene._end
-    columns = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
-    if columns is None:
+    numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
+    if numbers is None:
         return None
-    columns[11], columns[12] = enclosing_floats(start)[0], enclosing_floats(end)[1]
+    numbers[:, 11], numbers[:, 12] = enclosing_floats(start)[0], enclosing_floats(end)[1]
 
     def outline(k: int) -> Outline:
         shape = rest_outline(bodies[k])
         assert shape is not None  # noqa: S101 - its numbers are doubles
         return shape
 
-    boxes = PieceBoxes(np.arange(len(bodies)), columns, outline)
+    boxes = PieceBoxes(np.arange(len(bodies)), numbers, outline)
     return ScenePieces(_OnDemand(scene), start, end, boxes)
 
 
 @np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
-    """Return the columns of `PieceBoxes` but times; None unless all are small and linear."""
+    """Return the numbers of `PieceBoxes` but times; None unless all are small and linear."""
     bends = bodies.coefficients[:, :, 2:].any()
     if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
         return None
     first = native(bodies.offsets[:-1])
-    columns = np.zeros((13, len(bodies)))
-    columns[0:4:2] = np.minimum.reduceat(bodies.vertices, first).T
-    columns[1:4:2] = np.maximum.reduceat(bodies.vertices, first).T
+    numbers = np.zeros((len(bodies), 13))
+    numbers[:, 0:4:2] = np.minimum.reduceat(bodies.vertices, first)
+    numbers[:, 1:4:2] = np.maximum.reduceat(bodies.vertices, first)
     for k in range(min(2, bodies.coefficients.shape[2])):
-        columns[4 + 2 * k : 6 + 2 * k] = bodies.coefficients[:, :, k].T
-    columns[8] = bodies.radii
-    return columns
+        numbers[:, 4 + 2 * k : 6 + 2 * k] = bodies.coefficients[:, :, k]
+    numbers[:, 8] = bodies.radii
+    return numbers
 
 
 def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
@@ -82,9 +82,7 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
         if known is None:
             return None
         numbers.append(known)
-    columns = np.zeros((13, len(bodies)))
-    columns[:9] = np.array(numbers).reshape(-1, 9).T
-    return columns
+    return np.pad(np.array(numbers).reshape(-1, 9), ((0, 0), (0, 4)))
 
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
