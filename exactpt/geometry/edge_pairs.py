@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from exactpt.geometry.boxes import overlapping_pairs
-from exactpt.geometry.ragged import segments_meet
+from exactpt.geometry.boxes import Floats, overlapping_pairs
+from exactpt.geometry.ragged import Flags, segments_meet
 from exactpt.kernel.budget import ask
 
 CHUNK: Final = 1 << 13
@@ -36,8 +36,15 @@ def unsure_pairs(
             ask()
             i, j = first[k : k + CHUNK], second[k : k + CHUNK]
             unsure = (j == i + 1) | (closed & (j - i == len(rows) - 1))
-            e, f = ends[:, i], ends[:, j]  # differences of two coordinates have twice their error
-            u, v, p = (tuple(side) for side in (e[2:] - e[:2], f[2:] - f[:2], f[:2] - e[:2]))
-            unsure |= ~segments_meet(u, v, p, 2.0 * error, 2.0 * error)[0]
+            unsure |= ~_surely_apart(ends[:, i], ends[:, j], error)
             pairs += zip(i[unsure].tolist(), j[unsure].tolist(), strict=True)
     return pairs
+
+
+def _surely_apart(e: Floats, f: Floats, error: float) -> Flags:
+    """Return which pairs of edges, in columns, surely have no common point.
+
+    A difference of two coordinates has at most twice their error.
+    """
+    u, v, p = ((x, y) for x, y in (e[2:] - e[:2], f[2:] - f[:2], f[:2] - e[:2]))
+    return segments_meet(u, v, p, 2.0 * error, 2.0 * error)[0]

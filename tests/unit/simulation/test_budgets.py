@@ -240,7 +240,7 @@ def test_in_the_search_of_straight_motion_the_start_is_proved(monkeypatch):
     def stop():
         raise BudgetExceeded("time limit exceeded", None)
 
-    monkeypatch.setattr("exactpt.pairs.boxes.ask", stop)
+    monkeypatch.setattr("exactpt.motion.slabs.ask", stop)
 
     with pytest.raises(BudgetExceeded) as spent:
         first_contact(many_moving(40))
