@@ -27,7 +27,7 @@ def slabs(
     """Cut a time span into slabs; yield the start, the end and the candidates of each.
 
     With many candidates a slab is shortened, by 4 or by 16, as long as these get fewer by the
-    square root of that at least; else they stay near each other, and shorter slabs are no help.
+    square root of that at least; else they stay near each other, and shorter slabs do not help.
     After a slab that was too long, the following ones are shorter than it for a while. They are
     longer while there are few candidates, so that few are compared in more than one.
 

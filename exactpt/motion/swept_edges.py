@@ -83,7 +83,7 @@ class SweptEdges:
         times, frame = self._times, self.vertices.frame
         first = longest = longest or times[-1] - times[0]
         stride = self.boxes.stride(frame.time(times[0])[0])
-        # Shorter slabs are no help to vertices without boxes, nor where nothing moves.
+        # Shorter slabs do not help vertices without boxes, nor where nothing moves.
         if math.isfinite(stride):
             first = min(first, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
         many = many or 2 * len(self.ids) + 64
