@@ -12,9 +12,9 @@ from fuzz.statics import audit_at
 
 def started(bodies, tiling):
     scene = crowd(bodies, 0)
-    driver = Driver(lambda: scene)
+    driver = Driver(scene)
     assert driver.start(tiling) is None
-    return scene, driver.kinetic
+    return scene, driver.tiled.kinetic
 
 
 @pytest.mark.long
