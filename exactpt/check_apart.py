@@ -121,12 +121,12 @@ def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
         if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
     return odd
 NUMBER = re.compile('([+-]?\\d++)(?:/(\\d++))?|([+-]?)(\\d*+)\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?', re.ASCII)
-MOST_BITS = 33220; MOST_DIGITS = 10000; MOST_DEGREE = 64
+MAX_BITS = 33220; MAX_DIGITS = 10000; MAX_DEGREE = 64
 class Bare(str): __slots__ = ()
 def need(condition: object, what: str, data: Json='') -> None:
     if not condition: raise NoProofError(f'the scene: {what} {data!r:.60}')
 def number(data: Json) -> Fraction:
-    is_short = isinstance(data, str) and len(data) <= 3 * MOST_DIGITS
+    is_short = isinstance(data, str) and len(data) <= 3 * MAX_DIGITS
     match = NUMBER.fullmatch(data) if is_short else None
     if match is None: raise NoProofError(f'the scene: not a number: {data!r:.60}')
     whole, under, minus, units, decimals, exponent = match.groups()
@@ -138,7 +138,7 @@ def number(data: Json) -> Fraction:
         need(abs(power) <= 100000, 'an exponent beyond 100,000:', data); power = power - len(decimals) if n else 0
         q = Fraction(n * 10 ** power) if power >= 0 else Fraction(n, 10 ** (-power))
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
-    need(bits <= MOST_BITS, 'more than 10,000 digits:', data); return q
+    need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
 def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> dict[str, Json]:
     known = isinstance(data, dict) and set(required) <= set(data) <= {*required, *optional}
     need(known, 'not an object, or with other keys:', data); return dict(data)
@@ -164,7 +164,7 @@ class Motion:
             m = [polynomial(p) for row in entries(given['matrix'], 2) for p in entries(row, 2)]
             high = max(of_shape + degree(*m), degree(x, y))
         h = polynomial(given.get('half_turn', []))
-        need(high + 2 * degree(h) <= MOST_DEGREE, f'a degree above {MOST_DEGREE}'); form = (*m, x, y, ONE)
+        need(high + 2 * degree(h) <= MAX_DEGREE, f'a degree above {MAX_DEGREE}'); form = (*m, x, y, ONE)
         if kind == 'rigid':
             c, s = point(given.get('orientation', ['1', '0']))
             need(c * c + s * s == 1, 'an orientation that is no unit vector:', data)
@@ -298,14 +298,14 @@ class Scene:
     def of(self, v: int) -> Body: return self.bodies[self.body_of[v]]
     def track(self, v: int, after: Fraction) -> Track: body = self.of(v); return body.track(v - body.first, after)
     def place(self, v: int, t: Fraction) -> Whole: x, y, w = values(self.track(v, t), t); return (x, y, w)
-MOST_BYTES, MOST_IN_LINE = (10 ** 9, 10 ** 8)
+MAX_BYTES, MAX_LINE_BYTES = (10 ** 9, 10 ** 8)
 def is_rational(word: str) -> bool:
-    over, _, under = word.removeprefix('-').partition('/'); is_short = max(len(over), len(under)) <= MOST_DIGITS
+    over, _, under = word.removeprefix('-').partition('/'); is_short = max(len(over), len(under)) <= MAX_DIGITS
     return bool(is_short and re.fullmatch(R, word) and ('/' not in word or under.strip('0')))
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
     rows = []
     for i, line in enumerate(proof.decode().split('\n'), 1):
-        if len(line) > MOST_IN_LINE: raise NoProofError(f'line {i} is too long')
+        if len(line) > MAX_LINE_BYTES: raise NoProofError(f'line {i} is too long')
         row = re.findall('[^ \\t\\r]+', line)
         if row and (not line.startswith('#')):
             form = FORMS.get(row[0], 'none')
@@ -316,7 +316,7 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
         raise NoProofError('the file is no proof, or the order of its lines is another one')
     return rows
 def file_bytes(path: Path) -> bytes:
-    with path.open('rb') as file: return file.read(MOST_BYTES + 1)
+    with path.open('rb') as file: return file.read(MAX_BYTES + 1)
 def say(text: str, code: int, file: TextIO) -> int:
     shown = (c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text); file.write(''.join(shown) + '\n')
     return code
@@ -636,7 +636,7 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
     WORK.start(work, len(scene_file) + len(certificate))
     try:
         size = max(len(scene_file), len(certificate))
-        need(size <= MOST_BYTES, "or the certificate: too many bytes")
+        need(size <= MAX_BYTES, "or the certificate: too many bytes")
         text, digest = scene_file.decode("utf-8-sig"), hashlib.sha256(scene_file).hexdigest()
         many = certificate.startswith(b"exactpt-apart-rows 1\n")
         rows = [] if many else read(certificate)

@@ -20,7 +20,7 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-MOST_BYTES: Final = 100_000_000
+MAX_BYTES: Final = 100_000_000
 """Maximum size of a file that is read, unless another limit is given."""
 CHUNK: Final = 1 << 20
 """Number of bytes read at a time: memory is allocated for what a file has, not for the limit."""
@@ -39,13 +39,13 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
 
     Args:
         path: the file.
-        most: maximum number of bytes; by default `MOST_BYTES`.
+        most: maximum number of bytes; by default `MAX_BYTES`.
 
     Raises:
         InputError: if it cannot be read, is a device, or is larger than that, or the maximum is
             not a number from 0 on. A regular file is refused by its size, before anything is read.
     """
-    limit = MOST_BYTES if most is None else most
+    limit = MAX_BYTES if most is None else most
     if not isinstance(limit, Integral) or limit < 0:
         raise InputError(f"max_bytes: not a number of bytes: {repr(limit)[:60]}")
     content = io.BytesIO()

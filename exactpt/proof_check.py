@@ -491,9 +491,9 @@ def comes_before(d: Point, e: Point) -> bool:
 NUMBER = re.compile(
     r"([+-]?\d++)(?:/(\d++))?|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?", re.ASCII
 )
-MOST_BITS = 33_220  # of a numerator or denominator in a scene: 10,000 digits
-MOST_DIGITS = 10_000  # of one in a proof
-MOST_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
+MAX_BITS = 33_220  # of a numerator or denominator in a scene: 10,000 digits
+MAX_DIGITS = 10_000  # of one in a proof
+MAX_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
 
 
 class Bare(str):
@@ -510,7 +510,7 @@ def need(condition: object, what: str, data: Json = "") -> None:
 
 def number(data: Json) -> Fraction:
     """Return the rational that a text, or a number of JSON, denotes."""
-    is_short = isinstance(data, str) and len(data) <= 3 * MOST_DIGITS
+    is_short = isinstance(data, str) and len(data) <= 3 * MAX_DIGITS
     match = NUMBER.fullmatch(data) if is_short else None
     if match is None:
         raise NoProofError(f"the scene: not a number: {data!r:.60}")
@@ -525,7 +525,7 @@ def number(data: Json) -> Fraction:
         power = power - len(decimals) if n else 0
         q = Fraction(n * 10**power) if power >= 0 else Fraction(n, 10**-power)
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
-    need(bits <= MOST_BITS, "more than 10,000 digits:", data)
+    need(bits <= MAX_BITS, "more than 10,000 digits:", data)
     return q
 
 
@@ -580,7 +580,7 @@ class Motion:
             m = [polynomial(p) for row in entries(given["matrix"], 2) for p in entries(row, 2)]
             high = max(of_shape + degree(*m), degree(x, y))
         h = polynomial(given.get("half_turn", []))
-        need(high + 2 * degree(h) <= MOST_DEGREE, f"a degree above {MOST_DEGREE}")
+        need(high + 2 * degree(h) <= MAX_DEGREE, f"a degree above {MAX_DEGREE}")
         self.keeps_lengths = kind != "affine"  # own
         form = *m, x, y, ONE
         if kind == "rigid":
@@ -779,7 +779,7 @@ def path_of(data: Json) -> Poses:
 # 2 arctan h(t), |h| <= 1, the difference from omega t is bounded at nine times; between these it
 # changes by at most the largest slope, (2 h' - omega (1 + h^2)) / (1 + h^2), times half a step.
 
-SAMPLES, MOST_ANGLE_BITS = 8, 512
+SAMPLES, MAX_ANGLE_BITS = 8, 512
 Bounds = tuple[Fraction, Fraction]
 
 
@@ -801,7 +801,7 @@ def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
     times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
     bits = bits_for(error, omega * max(abs(a), abs(b)))
-    if bits > MOST_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
+    if bits > MAX_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
         return False
     (low, high), gaps = angle_of(turned, bits + 8), list[Bounds]()
     for t in times:
@@ -855,7 +855,7 @@ def is_near(turn: Turn, span: Bounds, pose: Sequence[Poly], error: Fraction, off
     dx, dy, h = x.along(*span) - pose[0], y.along(*span) - pose[1], h.along(*span)
     u, angle = h.value(Fraction(0)), pose[2].value(Fraction(0))
     bits = bits_for(error, angle)
-    if bits > MOST_ANGLE_BITS or dx.bound(*all_of_it) ** 2 + dy.bound(*all_of_it) ** 2 > off**2:
+    if bits > MAX_ANGLE_BITS or dx.bound(*all_of_it) ** 2 + dy.bound(*all_of_it) ** 2 > off**2:
         return False
     slope, parts = h.derivative(), [Fraction(i, SAMPLES) for i in range(SAMPLES + 1)]
     rate = slope + slope - pose[2].derivative() * (ONE + h * h)
@@ -1523,8 +1523,8 @@ def root_in_words(row: list[str], time: Time, f: Poly) -> str:
 
 DEPTH = 64  # so often an interval in a proof is halved to find its root
 APART = 2048  # between times are multiples of the span / 2^APART
-MOST_BYTES, MOST_IN_LINE = 10**9, 10**8
-MOST_TERMS, MOST_DIGITS_OF_TIME = 193, 20_000  # of the polynomial that names a time
+MAX_BYTES, MAX_LINE_BYTES = 10**9, 10**8
+MAX_TERMS, MAX_DIGITS_OF_TIME = 193, 20_000  # of the polynomial that names a time
 R, V = r"-?[0-9]++(/[0-9]++)?", "[0-9]{1,9}"  # a rational, and a vertex or body
 TIME = f"{R} {R}( @( {V}){{2,3}}|( -?[0-9]++)*+)"
 ITEM = f" -( {V}){{2}}| =( {V}){{2}}| [+]( {V}){{4}}"
@@ -1543,9 +1543,9 @@ ORDER = "exactpt-proof scene span( face| inside| outer)*+( event)*+ (contact|non
 
 
 def is_rational(word: str) -> bool:
-    """Return True if a word is a rational of at most `MOST_DIGITS` digits above and below."""
+    """Return True if a word is a rational of at most `MAX_DIGITS` digits above and below."""
     over, _, under = word.removeprefix("-").partition("/")
-    is_short = max(len(over), len(under)) <= MOST_DIGITS
+    is_short = max(len(over), len(under)) <= MAX_DIGITS
     return bool(is_short and re.fullmatch(R, word) and ("/" not in word or under.strip("0")))
 
 
@@ -1555,7 +1555,7 @@ def is_bounded(row: list[str]) -> bool:
         return True
     end = next((i for i, w in enumerate(row) if w in (*STARTS, "@")), len(row))
     digits = sum(len(c.removeprefix("-")) for c in row[3:end])
-    is_short = end - 3 <= MOST_TERMS and digits <= MOST_DIGITS_OF_TIME
+    is_short = end - 3 <= MAX_TERMS and digits <= MAX_DIGITS_OF_TIME
     return is_short and all(map(is_rational, row[1:3]))
 
 
@@ -1563,7 +1563,7 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
     """Return the numbers and words of the lines of a proof, all of which are in the format."""
     rows = []
     for i, line in enumerate(proof.decode().split("\n"), 1):
-        if len(line) > MOST_IN_LINE:
+        if len(line) > MAX_LINE_BYTES:
             raise NoProofError(f"line {i} is too long")
         row = re.findall(r"[^ \t\r]+", line)
         if row and not line.startswith("#"):
@@ -1583,7 +1583,7 @@ def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Prov
     WORK.start(work, len(scene_file) + len(proof_file))
     orientation_of.cache_clear()
     try:
-        need(max(len(scene_file), len(proof_file)) <= MOST_BYTES, "or the proof: too many bytes")
+        need(max(len(scene_file), len(proof_file)) <= MAX_BYTES, "or the proof: too many bytes")
         rows, text = read(proof_file), scene_file.decode("utf-8-sig")
         digest = hashlib.sha256(scene_file).hexdigest()
         if rows[1][1][2] != digest:
@@ -1689,7 +1689,7 @@ def main(arguments: list[str]) -> int:
 def file_bytes(path: Path) -> bytes:
     """Return the bytes of a file, at most one more than allowed."""
     with path.open("rb") as file:
-        return file.read(MOST_BYTES + 1)
+        return file.read(MAX_BYTES + 1)
 
 
 # ---- Chains: proofs one after the other, of the parts of one run.

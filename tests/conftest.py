@@ -36,7 +36,7 @@ settings.register_profile(
     "quick", max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 
-MOST_BITS = 100_000
+MAX_BITS = 100_000
 BUDGET = float(os.environ.get("QUICK_BUDGET", "0.5"))  # seconds
 """Seconds of processor time, children included, of a test in the quick tier."""
 
@@ -139,8 +139,8 @@ def _bounded_refinement():
     refine = AlgebraicNumber.refine
 
     def bounded(self):
-        if max(q.denominator.bit_length() for q in (self.low, self.high)) > MOST_BITS:
-            raise AssertionError(f"refined beyond {MOST_BITS} bits: {self.polynomial}")
+        if max(q.denominator.bit_length() for q in (self.low, self.high)) > MAX_BITS:
+            raise AssertionError(f"refined beyond {MAX_BITS} bits: {self.polynomial}")
         refine(self)
 
     with pytest.MonkeyPatch.context() as patch:

@@ -16,7 +16,7 @@ from exactpt.batch.linear import initial_contact, is_linear, linear_contact
 from exactpt.batch.question import Question
 from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
@@ -62,7 +62,7 @@ def answer(content: bytes, question: Question) -> Answer:
         return {"error": f"more than {question.max_bytes} bytes"}
     try:
         with question.budget():
-            ask()
+            check_budget()
             return question.answer(_scene(content))
     except (InputError, BudgetExceeded) as error:
         return {"error": str(error)}
@@ -86,7 +86,7 @@ def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answe
     """Return the answers that filters have found, by the index of the scene."""
     try:
         with question.budget(), _uncollected():
-            ask()
+            check_budget()
             return _screened(_read(contents, question.max_bytes), contents)
     except BudgetExceeded:  # each by itself
         return {}

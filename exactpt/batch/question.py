@@ -9,7 +9,7 @@ from typing import Final, final
 
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
-from exactpt.files import MOST_BYTES
+from exactpt.files import MAX_BYTES
 from exactpt.kernel.budget import within
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.pairs.approach import first_within
@@ -53,7 +53,7 @@ class Question:
     exact_only: bool = False
     max_seconds: float | None = None
     max_memory: int | None = None
-    max_bytes: int = MOST_BYTES
+    max_bytes: int = MAX_BYTES
 
     def __post_init__(self) -> None:
         for value in (self.distance, self.until, self.since):

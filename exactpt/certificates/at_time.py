@@ -26,7 +26,7 @@ from exactpt.certificates.reasons import reason
 from exactpt.geometry.predicates import Point, side
 from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Floats, Indices, items
 from exactpt.kernel.error_free import NOT_EXACT
@@ -158,7 +158,7 @@ class PredicatesAt(Predicates):
         return signs
 
     def _exact_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
-        ask()
+        check_budget()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
         s = 0 if are_copies else self._places.cross_sign(a, b, a, c)

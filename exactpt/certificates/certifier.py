@@ -22,7 +22,7 @@ from exactpt.certificates.reasons import reason
 from exactpt.certificates.rigidity import keeps_x_order, rigid
 from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
@@ -272,7 +272,7 @@ class Certifier:
         answers: list[tuple[int, EventTime | None]] = []
         for a, b, c in triples:
             if len(answers) % FEW == 0:
-                ask()
+                check_budget()
             answers.append(self.orientation(a, b, c))
         return answers
 

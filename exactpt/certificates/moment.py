@@ -14,7 +14,7 @@ from exactpt.motion.incidence import difference, orientation
 
 if TYPE_CHECKING:
     from exactpt.motion.course import Piece
-    from exactpt.motion.frame import Frame
+    from exactpt.motion.normalization import Normalization
     from exactpt.motion.vertex import Stage
 
 Numbered: TypeAlias = "tuple[Piece, int]"
@@ -37,11 +37,11 @@ class Moment:
     """
 
     def __init__(
-        self, time: EventTime, vertices: tuple[tuple[Stage, int], ...], frame: Frame
+        self, time: EventTime, vertices: tuple[tuple[Stage, int], ...], frame: Normalization
     ) -> None:
         self._time: EventTime = time
         self._vertices: tuple[tuple[Stage, int], ...] = vertices
-        self._frame: Frame = frame
+        self._frame: Normalization = frame
 
     @property
     def number(self) -> AlgebraicNumber:
@@ -53,7 +53,9 @@ class Moment:
         return exact
 
 
-def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) -> AlgebraicNumber:
+def exact_time(
+    time: EventTime, vertices: tuple[Numbered, ...], frame: Normalization
+) -> AlgebraicNumber:
     """Compute ``time.exact``, and narrow the enclosure as far as doubles allow.
 
     Args:
@@ -86,7 +88,7 @@ def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
     return AlgebraicNumber((of_a[0] - of_b[0]) / (of_b[1] - of_a[1]))
 
 
-def _isolated(f: IntPoly, time: EventTime, frame: Frame) -> AlgebraicNumber:
+def _isolated(f: IntPoly, time: EventTime, frame: Normalization) -> AlgebraicNumber:
     """Return the root of a polynomial in the enclosure of a time.
 
     Raises:

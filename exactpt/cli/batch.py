@@ -20,7 +20,7 @@ from exactpt.cli.options import (
 from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import print_error
 from exactpt.errors import InputError
-from exactpt.files import MOST_BYTES
+from exactpt.files import MAX_BYTES
 from exactpt.kernel.numbers import QQ
 
 
@@ -106,7 +106,7 @@ def batch(
         exact_only=exact_only,
         max_seconds=max_seconds,
         max_memory=max_memory(),
-        max_bytes=MOST_BYTES if most is None else most,
+        max_bytes=MAX_BYTES if most is None else most,
     )
     share = [0, 1]
     try:

@@ -13,7 +13,7 @@ import click
 from click.core import ParameterSource
 
 from exactpt.errors import InputError, TimeRangeError
-from exactpt.files import MOST_BYTES
+from exactpt.files import MAX_BYTES
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
     command = click.option(
         "--max-bytes",
         type=click.IntRange(min=0),
-        help=f"Refuse larger input files; by default {MOST_BYTES}.",
+        help=f"Refuse larger input files; by default {MAX_BYTES}.",
         callback=_keep_bound,
         expose_value=False,
     )(command)

@@ -34,7 +34,7 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import carrying
 from exactpt.geometry.polygon import near_groups
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
@@ -200,7 +200,7 @@ class _Search:
         self._passing = self._points_on_edges(contact)
         before: QQ | None = None
         for t in self._times(low, contact.time):
-            ask()
+            check_budget()
             if known is not None and t >= known:
                 return None
             if self._is_sure(t):
@@ -226,7 +226,7 @@ class _Search:
     def _earlier(self, low: AlgebraicNumber, before: QQ, sure: QQ) -> QQ:
         """Return a time of certain contact of two bodies, near a time of possible contact."""
         while sure - before > (sure - low._low) / 16:
-            ask()
+            check_budget()
             middle = (before + sure) / 2
             before, sure = (before, middle) if self._is_sure(middle) else (middle, sure)
         return sure

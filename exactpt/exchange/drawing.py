@@ -16,7 +16,7 @@ from exactpt.kernel.numbers import shorten
 
 NAMESPACE: Final = "http://www.w3.org/2000/svg"
 
-_MOST_COPIES: Final = 100_000
+_MAX_COPIES: Final = 100_000
 """Maximum number of elements that copies by ``use`` add to a drawing."""
 
 _HREFS: Final = ("href", "{http://www.w3.org/1999/xlink}href")
@@ -133,8 +133,8 @@ def _check_copies(root: Xml.Element) -> None:
         return count, height
 
     count, _ = expand(root, 1)
-    if count - len(whole) > _MOST_COPIES:
-        raise InputError(f"more than {_MOST_COPIES} elements are copies of others")
+    if count - len(whole) > _MAX_COPIES:
+        raise InputError(f"more than {_MAX_COPIES} elements are copies of others")
 
 
 def _parts(element: Xml.Element, named: dict[str, Xml.Element]) -> list[Xml.Element]:

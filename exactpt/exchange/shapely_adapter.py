@@ -44,7 +44,7 @@ __all__ = [
     "shapes_of_geometry",
 ]
 
-_MOST_CHORDS: Final = 10_000
+_MAX_CHORDS: Final = 10_000
 """Maximum number of chords of a quarter of a circle."""
 
 _KINDS: Final[dict[str, Kind]] = {
@@ -258,6 +258,6 @@ def _quarter(radius: float, tolerance: float | None) -> int:
         raise InputError(f"the tolerance is a positive number: {tolerance}")
     # 1 - cos(a) = 2 sin(a / 2)^2.
     count = math.pi / (8.0 * math.asin(math.sqrt(min(ratio, 1.0) / 2.0)))
-    if count > _MOST_CHORDS:
-        raise InputError(f"an arc needs more than {_MOST_CHORDS} chords: raise the tolerance")
+    if count > _MAX_CHORDS:
+        raise InputError(f"an arc needs more than {_MAX_CHORDS} chords: raise the tolerance")
     return math.ceil(count)

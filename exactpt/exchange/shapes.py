@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 DEEPEST: Final = 100
 """Maximum depth to which collections and groups may be nested in a file."""
 
-_MOST_NESTED: Final = 10_000_000
+_MAX_NESTED: Final = 10_000_000
 """Maximum number of pairs of rings of one outline with one box inside the other."""
 
 Kind: TypeAlias = Literal["point", "line", "polygon"]
@@ -189,8 +189,8 @@ def _boxes_around(boxes: Boxes) -> dict[int, list[int]]:
             inner.append(b[inside])
             outer.append(a[inside])
             count += len(inner[-1])
-        if count > _MOST_NESTED:
-            raise InputError(f"more than {_MOST_NESTED} pairs of its outlines are nested")
+        if count > _MAX_NESTED:
+            raise InputError(f"more than {_MAX_NESTED} pairs of its outlines are nested")
     around: dict[int, list[int]] = {}
     for b, a in zip(np.concatenate([_NONE, *inner]), np.concatenate([_NONE, *outer]), strict=True):
         around.setdefault(int(b), []).append(int(a))

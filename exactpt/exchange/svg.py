@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
     from exactpt.geometry.predicates import Point
 
-_MOST_CHORDS: Final = 20_000
+_MAX_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
-_MOST_POINTS: Final = 2_000_000
+_MAX_POINTS: Final = 2_000_000
 """Maximum number of points of a drawing."""
 
 
@@ -44,7 +44,7 @@ def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise InputError(f"the tolerance is a positive number: {tolerance}")
-    left = _MOST_POINTS
+    left = _MAX_POINTS
     for i, (name, path) in enumerate(_paths(text)):
         where = f"outline {i}" + (f" (id {shorten(name)[1:-1]})" if name else "")
         try:
@@ -141,7 +141,7 @@ def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[P
         if segment.end is not None:
             found.append(segment.end)
         if len(found) > most:
-            raise InputError(f"more than {_MOST_POINTS} points: raise the tolerance")
+            raise InputError(f"more than {_MAX_POINTS} points: raise the tolerance")
     return [(rational(float(p.x)), rational(-float(p.y))) for p in found]
 
 
@@ -167,8 +167,8 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
         ]
         degree = len(points) - 1
         count = math.sqrt(degree * (degree - 1) * max(bends) / (8 * tolerance))
-    if not count <= _MOST_CHORDS:
-        raise InputError(f"a curve needs more than {_MOST_CHORDS} chords: raise the tolerance")
+    if not count <= _MAX_CHORDS:
+        raise InputError(f"a curve needs more than {_MAX_CHORDS} chords: raise the tolerance")
     return max(1, math.ceil(float(count)))
 
 

@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import FAR
 
@@ -124,7 +124,7 @@ def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
     stop = np.searchsorted(place, place - box + ends[box])
     first = 0
     while first < len(box):
-        ask()
+        check_budget()
         # As many boxes as fit in a chunk, but at least one.
         total = np.cumsum(stop[first:] - after[first:], dtype=np.int64)
         last = first + max(1, int(np.searchsorted(total, _CHUNK, side="right")))

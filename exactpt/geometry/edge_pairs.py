@@ -9,7 +9,7 @@ import numpy as np
 
 from exactpt.geometry.boxes import Floats, overlapping_pairs
 from exactpt.geometry.ragged import Flags, segments_meet
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 
 CHUNK: Final = 1 << 13
 """Number of pairs that are compared at once, so that their numbers stay in the cache."""
@@ -33,7 +33,7 @@ def unsure_pairs(
     pairs: list[tuple[int, int]] = []
     for first, second in overlapping_pairs(boxes):
         for k in range(0, len(first), CHUNK):
-            ask()
+            check_budget()
             i, j = first[k : k + CHUNK], second[k : k + CHUNK]
             unsure = (j == i + 1) | (closed & (j - i == len(rows) - 1))
             unsure |= ~_surely_apart(ends[:, i], ends[:, j], error)

@@ -11,7 +11,7 @@ from typing import Final
 
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.geometry.simple import edges
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 
 FEW: Final = 12
@@ -81,13 +81,13 @@ def near_groups(groups: Sequence[Sequence[Point]]) -> Iterator[tuple[int, int]]:
 
         for first, second in overlapping_pairs(boxes_of_points(groups)):
             for i, j in zip(first.tolist(), second.tolist(), strict=True):
-                ask()
+                check_budget()
                 yield i, j
         return
     boxes = [(min(x), max(x), min(y), max(y)) for x, y in (zip(*g, strict=True) for g in groups)]
     for (i, (left, right, low, high)), (j, b) in combinations(enumerate(boxes), 2):
         if left <= b[1] and b[0] <= right and low <= b[3] and b[2] <= high:
-            ask()
+            check_budget()
             yield i, j
 
 

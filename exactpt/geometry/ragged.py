@@ -18,7 +18,7 @@ Flags: TypeAlias = NDArray[np.bool_]
 
 K: Final = 8.0 * U
 """Relative bound on the rounding of an orientation: see `segments_meet`."""
-MOST_EDGES: Final = 64
+MAX_EDGES: Final = 64
 """Maximum number of edges of a body whose pairs of edges are all tested here."""
 _CHUNK: Final = 1 << 16
 """Maximum number of pairs of edges in a chunk."""
@@ -171,7 +171,7 @@ def surely_simple(
     inner[starts[~rings]] = True  # a chain does not turn at its ends
     bends = np.logical_and.reduceat(inner, starts)
     simple: Flags = short | convex
-    candidates = np.flatnonzero(~simple & distinct & bends & (np.diff(edges.offsets) <= MOST_EDGES))
+    candidates = np.flatnonzero(~simple & distinct & bends & (np.diff(edges.offsets) <= MAX_EDGES))
     counts = np.diff(edges.offsets)[candidates] ** 2
     for first, last in ranges(counts, _CHUNK):
         some = candidates[first:last]

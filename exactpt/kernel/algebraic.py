@@ -20,7 +20,7 @@ from exactpt.kernel.approximation import (
     multiple_before,
     rational_between,
 )
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -43,7 +43,7 @@ from exactpt.kernel.numbers import (
 from exactpt.kernel.real_number import RealNumber
 
 if TYPE_CHECKING:
-    from exactpt.kernel.sympy_door import Expression
+    from exactpt.kernel.sympy_adapter import Expression
 
 __all__ = ["AlgebraicNumber", "linear_root", "multiple_before", "rational_between"]
 
@@ -67,7 +67,7 @@ class AlgebraicNumber(RealNumber):
         """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``other``."""
         differ = False
         while True:
-            ask()
+            check_budget()
             if self._high < other._low:
                 return -1
             if self._low > other._high:
@@ -114,7 +114,7 @@ class AlgebraicNumber(RealNumber):
         if len(common) > 1 and sign_at(common, self._low) * sign_at(common, self._high) < 0:
             return 0
         while not s:
-            ask()
+            check_budget()
             self.refine()
             if self._low == self._high:
                 return sign_at(f, self._low)
@@ -127,7 +127,7 @@ class AlgebraicNumber(RealNumber):
         It is the sign of the first of f, f', f'', ... that is not 0 here.
         """
         while f:
-            ask()
+            check_budget()
             s = self.sign_of(f)
             if s:
                 return s
@@ -138,7 +138,7 @@ class AlgebraicNumber(RealNumber):
         """Return the sign of f just before this number; 0 only for the zero polynomial."""
         factor = 1
         while f:
-            ask()
+            check_budget()
             s = self.sign_of(f)
             if s:
                 return factor * s
@@ -177,7 +177,7 @@ class AlgebraicNumber(RealNumber):
         slope = derivative(p)
         # An interval on which p is monotone isolates the root.
         while not sign_on(slope, self._low, self._high):
-            ask()
+            check_budget()
             self.refine()
         return AlgebraicNumber._root(p, self._low, self._high)
 
@@ -204,7 +204,7 @@ class AlgebraicNumber(RealNumber):
 
     def to_sympy(self) -> Expression:
         """Return the number as a SymPy expression (a rational, a surd or a ``CRootOf``)."""
-        from exactpt.kernel.sympy_door import algebraic_to_sympy
+        from exactpt.kernel.sympy_adapter import algebraic_to_sympy
 
         return algebraic_to_sympy(self)
 

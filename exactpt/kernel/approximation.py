@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 LARGEST_BITS: Final = 500
 """Maximum bit length of coefficients as floats: products with powers of t seldom overflow."""
-MOST_STEPS: Final = 60
+MAX_STEPS: Final = 60
 """Maximum number of Newton steps."""
 SETTLED: Final = 2.0**-30
 """Relative length of the last Newton step: the error left is about its square."""
@@ -81,7 +81,7 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
     shift = max(0, max(abs(c) for c in x._polynomial).bit_length() - LARGEST_BITS)
     f = [float(c >> shift) for c in reversed(x._polynomial)]
     rises, t = _value_and_slope(f, hi)[0] > 0.0, (lo + hi) / 2
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         value, slope = _value_and_slope(f, t)
         lo, hi = (lo, t) if (value > 0.0) == rises else (t, hi)
         step = value / slope if slope else math.inf
@@ -113,7 +113,7 @@ def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
         return x._low, x._high
     bits = 64
     while True:
-        ask()
+        check_budget()
         grid = power_of_two(-bits)
         m = _floor_on_grid(x, grid)
         low, high = m * grid, (m + 1) * grid
@@ -141,7 +141,7 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
     # A grid point between x and y belongs to all finer grids too: gallop, then bisect.
     coarse, bits = -1, 0
     while y.compare_rational(found := _next_on_grid(x, bits)) <= 0:
-        ask()  # in a forged state, x may be y or more
+        check_budget()  # in a forged state, x may be y or more
         coarse, bits = bits, 2 * bits + 1
     while bits - coarse > 1:
         middle = (coarse + bits) // 2

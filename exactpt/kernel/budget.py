@@ -44,7 +44,7 @@ class _Limits(threading.local):
 _LIMITS: Final = _Limits()
 
 
-def ask() -> None:
+def check_budget() -> None:
     """Raise `BudgetExceeded` if this thread has exceeded its time or memory limit.
 
     Raises:

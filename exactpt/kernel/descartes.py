@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from typing import Final
 
-from exactpt.kernel.budget import LONG, ask
+from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ, sign
 from exactpt.kernel.sturm import sign_changes
@@ -61,7 +61,7 @@ def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
     if by:
         for i in range(len(g) - 1):
             if len(g) > LONG:
-                ask()
+                check_budget()
             for j in range(len(g) - 2, i - 1, -1):
                 g[j] += by * g[j + 1]
     return _stretch(g, ZZ(width.numerator * low.denominator))
@@ -93,7 +93,7 @@ def _shifted_by_one(g: list[ZZ]) -> list[ZZ]:
     is_long = len(rest) > LONG
     while rest:
         if is_long:
-            ask()
+            check_budget()
         rest = list(accumulate(rest))
         result.append(rest.pop())
     return result

@@ -16,7 +16,7 @@ def irreducible_factors(f: IntPoly) -> list[IntPoly]:
     try:
         factors = _factors_by_flint(coefficients)
     except ImportError:
-        from exactpt.kernel.sympy_door import integer_factors
+        from exactpt.kernel.sympy_adapter import integer_factors
 
         factors = integer_factors(coefficients)
     found = [tuple(map(ZZ, factor)) for factor in factors]

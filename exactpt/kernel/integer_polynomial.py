@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from exactpt.kernel.budget import LONG, ask
+from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.numbers import QQ, ZZ, gcd, sign
 
 IntPoly: TypeAlias = "tuple[ZZ, ...]"
@@ -74,7 +74,7 @@ def multiply(f: IntPoly, g: IntPoly) -> IntPoly:
     is_long = len(g) > LONG
     for i, a in enumerate(f):
         if is_long:
-            ask()
+            check_budget()
         if a:
             for j, b in enumerate(g):
                 product[i + j] += a * b
@@ -150,7 +150,7 @@ def positive_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
     remainder = list(f)
     while len(remainder) >= size:
         if size > LONG:
-            ask()
+            check_budget()
         top = remainder.pop()
         if top == 0:
             continue
@@ -169,7 +169,7 @@ def quotient(f: IntPoly, g: IntPoly) -> IntPoly:
     positive = abs(lead)
     for shift in range(len(f) - size, -1, -1):
         if size > LONG:
-            ask()
+            check_budget()
         # Multiply everything by |lead|, so that the next coefficient is an integer.
         remainder = [positive * c for c in remainder]
         result = [positive * c for c in result]

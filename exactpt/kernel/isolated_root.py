@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Final, Self
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -117,7 +117,7 @@ class IsolatedRoot:
         # just right of it is that of the derivative. Bisect until low is not a root.
         self._below = sign_at(derivative(self._polynomial), self._low)
         while True:
-            ask()
+            check_budget()
             middle = (self._low + self._high) / 2
             s = sign_at(self._polynomial, middle)
             if s == 0:
@@ -205,7 +205,7 @@ class IsolatedRoot:
     def refine_to(self, width: QQ) -> None:
         """Refine until ``high - low <= width`` (positive)."""
         while self._high - self._low > width:
-            ask()
+            check_budget()
             self.refine()
 
     def compare_rational(self, number: Rational) -> int:

@@ -8,7 +8,7 @@ from math import lcm
 from typing import TYPE_CHECKING, ClassVar, Final, final, overload
 
 from exactpt.errors import InputError
-from exactpt.kernel.budget import LONG, ask
+from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.numbers import (
     QQ,
     ZZ,
@@ -23,7 +23,7 @@ from exactpt.kernel.numbers import (
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.integer_polynomial import IntPoly
-    from exactpt.kernel.sympy_door import Expression, Variable
+    from exactpt.kernel.sympy_adapter import Expression, Variable
 
 
 @final
@@ -98,13 +98,13 @@ class Polynomial:
         Raises:
             InputError: if it is not a polynomial with rational coefficients.
         """
-        from exactpt.kernel.sympy_door import coefficients_from_sympy
+        from exactpt.kernel.sympy_adapter import coefficients_from_sympy
 
         return cls(coefficients_from_sympy(expression, variable))
 
     def to_sympy(self, variable: Variable) -> Expression:
         """Return the polynomial as a SymPy expression in ``variable``."""
-        from exactpt.kernel.sympy_door import polynomial_to_sympy
+        from exactpt.kernel.sympy_adapter import polynomial_to_sympy
 
         return polynomial_to_sympy(self, variable)
 
@@ -215,7 +215,7 @@ class Polynomial:
         product = [QQ(0)] * (len(f) + len(g) - 1)
         for i, a in enumerate(f):
             if len(g) > LONG:
-                ask()
+                check_budget()
             for j, b in enumerate(g):
                 product[i + j] += a * b
         return Polynomial._of(product)

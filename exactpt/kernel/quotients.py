@@ -8,7 +8,7 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import IntPoly, range_on, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
 
@@ -18,7 +18,7 @@ def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
     if time.sign_of(p) == 0:
         return -sys.maxsize
     while True:
-        ask()
+        check_budget()
         low, high = _range(p, w, time._low, time._high)
         least = low if low > 0 else -high
         if least > 0:
@@ -31,7 +31,7 @@ def nearest_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
     if time.sign_of(p) == 0:
         return 0.0
     while True:
-        ask()
+        check_budget()
         low, high = _range(p, w, time._low, time._high)
         a, b = nearest_float(low), nearest_float(high)
         if a == b:
@@ -62,7 +62,7 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
     if time.sign_of(p) == 0:
         return Decimal(0)
     while True:
-        ask()
+        check_budget()
         low, high = _range(p, w, time._low, time._high)
         a, b = _rounded(low, context), _rounded(high, context)
         if a == b:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ZZ, is_square, isqrt, nearest_float, power_of_two
 
 Terms: TypeAlias = "dict[ZZ, QQ]"
@@ -35,7 +35,7 @@ def root_sum_sign(coefficients: Mapping[QQ, int]) -> int:
         if high < 0:
             return -1
         bits *= 2
-        ask()
+        check_budget()
 
 
 def nearest_root_sum(radicands: Iterable[QQ]) -> float:
@@ -53,7 +53,7 @@ def nearest_root_sum(radicands: Iterable[QQ]) -> float:
         if low == high:
             return low
         bits *= 2
-        ask()
+        check_budget()
 
 
 def _independent(terms: Iterable[tuple[QQ, int]]) -> Terms:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from exactpt.errors import InputError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -36,7 +36,7 @@ def sturm_sequence(f: IntPoly) -> list[IntPoly]:
     sequence = [f]
     following = primitive(derivative(f))
     while following:
-        ask()
+        check_budget()
         sequence.append(following)
         following = negate(positive_remainder(sequence[-2], following))
     common = sequence[-1]
@@ -95,7 +95,7 @@ def isolating_intervals(sequence: list[IntPoly], lo: QQ, hi: QQ) -> Iterator[tup
     """
     stack = [(lo, hi, _variations(sequence, lo), _variations(sequence, hi))]
     while stack:
-        ask()
+        check_budget()
         left, right, below, above = stack.pop()
         if below == above:
             continue

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.incidence import orientation
@@ -34,7 +34,7 @@ def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
         until = end if piece.until is None else min(piece.until, end)
         now = AlgebraicNumber(time)
         for a, b, c in triples:
-            ask()
+            check_budget()
             f = orientation(*(piece.track(i) for i in (a, b, c)))
             if not f or now.sign_after(f) < 0 or any(roots_after(f, now, until)):
                 return False

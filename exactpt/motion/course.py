@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import final
 
 from exactpt.errors import InputError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
 from exactpt.motion.shape import Places, Shape
@@ -44,7 +44,7 @@ class Piece:
         """Return the trajectory of a vertex, numbered as in the scene; made on first access."""
         made = self._made.get(vertex)
         if made is None:
-            ask()
+            check_budget()
             position = self._shape.after(self._since)[vertex]
             made = self._made.setdefault(vertex, self.motion.track(position))
         return made
@@ -191,6 +191,6 @@ def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tupl
     """Return the positions of vertices at a time."""
     places = []
     for position in shape:
-        ask()
+        check_budget()
         places.append(motion.track(position)._at(t))
     return places

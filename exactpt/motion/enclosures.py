@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 import numpy as np
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import LARGEST, SMALLEST, U
-from exactpt.motion.frame import Frame, binary_exponent, combined
 from exactpt.motion.image import Arm, Image, constant_error, translated
+from exactpt.motion.normalization import Normalization, binary_exponent, combined
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from exactpt.motion.course import Piece
     from exactpt.motion.track import Track
 
-MOST_SCALED: Final = 900
+MAX_SCALED_EXPONENT: Final = 900
 """Largest absolute value of a scale 2^s by which doubles are multiplied."""
 SMALLEST_OF_ARMS: Final = 2.0**-100
 """The same for `Arm`: certificates with arms have products of four coefficients."""
@@ -64,7 +64,7 @@ class Enclosures:
             translating trajectory made so far, in x and in y; 0 while all are exact.
     """
 
-    def __init__(self, frame: Frame) -> None:
+    def __init__(self, frame: Normalization) -> None:
         self._frame = frame
         self._motions: dict[object, int] = {}
         self._velocities: Floats | None = None  # of the first motions, until `_motions` is needed
@@ -83,9 +83,9 @@ class Enclosures:
         None if doubles are not known, or would lose digits when they are added.
         """
         moved = piece.translation
-        if moved is None or max(map(abs, self._frame.scale)) > MOST_SCALED:
+        if moved is None or max(map(abs, self._frame.scale)) > MAX_SCALED_EXPONENT:
             return None
-        ask()
+        check_budget()
         places, translation = moved
         paths = translation.x._coefficients, translation.y._coefficients
         size = max(*map(len, paths), 1)
@@ -130,7 +130,7 @@ class Enclosures:
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
         for track in tracks:
-            ask()
+            check_budget()
             if last is None or track.motion != last:
                 motion, last = self._number(track.motion), track.motion
                 tails = self._integer_tails(track)
@@ -228,7 +228,7 @@ class Enclosures:
                 self.errors[i] = error
 
 
-def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
+def _arm(track: Track, common: _Common, frame: Normalization) -> Arm | None:
     """Return the trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
 
     (The denominators of trajectories of one motion differ by constants.) None if the
@@ -251,7 +251,7 @@ def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
     return Arm(common.pivot_x, common.pivot_y, arm_x, arm_y, common.denominator)
 
 
-def _common_of(turning: Turning, frame: Frame) -> _Common | None:
+def _common_of(turning: Turning, frame: Normalization) -> _Common | None:
     """Return the common part of the arms of all vertices of a motion; None if there is none."""
     paths = turning.x._coefficients, turning.y._coefficients
     h = turning.half_turn

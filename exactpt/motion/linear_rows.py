@@ -1,6 +1,6 @@
 """The coefficients of many polygons in linear translation at once, in numpy.
 
-The results are bit for bit those of `exactpt.motion.enclosures`, `exactpt.motion.frame` and
+The results are bit for bit those of `exactpt.motion.enclosures`, `exactpt.motion.normalization` and
 `exactpt.motion.ring_order` for one body. The computation is left to them if any body is of another
 kind, or a number is out of range or close to a bound.
 """
@@ -13,19 +13,19 @@ from typing import TYPE_CHECKING, Final, NamedTuple, cast
 import numpy as np
 
 from exactpt.geometry.ragged import Flags, spread
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
-from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.motions import Translation
+from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.ring_order import turns_left
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
 LEAST: Final = 2.0**-19
-"""Least extent of a scene that certainly needs no scale, see `exactpt.motion.frame`."""
+"""Least extent of a scene that certainly needs no scale, see `exactpt.motion.normalization`."""
 MOST: Final = 2.0**19
 """Its largest one."""
 FAR: Final = 8.0
@@ -51,7 +51,7 @@ class LinearRows(NamedTuple):
         error: the bound on the errors of x0 and y0; those of x1 and y1 are exact.
     """
 
-    frame: Frame
+    frame: Normalization
     offsets: Indices
     indices: Indices
     coefficients: Floats
@@ -137,7 +137,7 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     offsets = [0]
     paths: list[QQ | float] = []
     for body in bodies:
-        ask()
+        check_budget()
         near, motion = body._shape.near, body.motion
         if (
             near is None
@@ -162,7 +162,7 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     return _Given(np.array([xs, ys]).T, np.array(offsets), moves[:, :, 0], moves[:, :, 1])
 
 
-def _frame(near: Floats, start: QQ, end: QQ, blur: float) -> Frame | None:
+def _frame(near: Floats, start: QQ, end: QQ, blur: float) -> Normalization | None:
     """Return the frame of positions at the start; None if it shifts, or is not certain.
 
     Rounded positions, with errors of up to ``blur``, must certainly need neither a shift nor a

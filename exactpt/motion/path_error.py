@@ -24,7 +24,7 @@ from __future__ import annotations
 from typing import Final
 
 from exactpt.kernel.arctangents import pi_bounds
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, floor
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Rigid
@@ -51,7 +51,7 @@ def angle_error(turn: Rigid, a: QQ, b: QQ, angle: Polynomial, error: QQ) -> QQ:
     Raises:
         InputError: if the error is too small for angles of this size.
     """
-    ask()
+    check_budget()
     unit = Polynomial([a, b - a])
     h, theta = turn.half_turn(unit), angle(unit)
     slope = h.derivative()

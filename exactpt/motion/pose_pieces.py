@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Final, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
@@ -77,7 +77,7 @@ class _Builder:
             a = begin
             step = end - a if step is None else step
             while a < end:
-                ask()
+                check_budget()
                 b = _next(a, end, step)
                 turn, rate = self._piece(a, b, pose)
                 if turn is None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def slabs(
     for begin, until in pairwise(times):
         now = begin
         while now < until:
-            ask()
+            check_budget()
             whole = tried = step
             later = min(now + step, until)
             found = near(now, later)

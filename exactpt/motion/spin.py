@@ -15,7 +15,7 @@ from typing import Final, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.arctangents import atan_bounds, pi_bounds
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
@@ -202,7 +202,7 @@ class _Turns:
         a, u = start, vector_near(self.omega * start, self.error)
         turns: list[tuple[QQ | None, Polynomial, Vector]] = [(start, ZERO, u)]
         while a < end:
-            ask()
+            check_budget()
             b = min(a + step, end)
             v = vector_near(self.omega * b, self.error)
             turns.append((b, self._half_turn(a, b, u, v), u))

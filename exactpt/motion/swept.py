@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import middles
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
@@ -131,7 +131,7 @@ class SweptBoxes:
         r = np.maximum(high - m[..., 0], m[..., 0] - low)[..., None] * (1.0 + 4.0 * U)
         shifted = np.broadcast_to(cs, (*m.shape[:-1], *cs.shape)).copy()
         for i in range(n - 1):
-            ask()
+            check_budget()
             for j in range(n - 2, i - 1, -1):
                 shifted[..., j] += m * shifted[..., j + 1]
         powers = r ** np.arange(n)

@@ -18,13 +18,13 @@ from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.arctangents import Bounds, atan_bounds, pi_bounds
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, exponent, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
 _SAMPLES: Final = 8
-_MOST_BITS: Final = 512
+_MAX_BITS: Final = 512
 
 
 def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
@@ -49,7 +49,7 @@ def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
 
 
 def _is_piece_within(turn: Rigid, a: QQ, b: QQ, omega: QQ, error: QQ) -> bool:
-    ask()
+    check_budget()
     h = turn.half_turn
     slope = bound_on(2 * h.derivative() - omega * (ONE + h * h), a, b)
     between = slope * (b - a) / (2 * _SAMPLES)
@@ -84,7 +84,7 @@ def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
     n = len(c) - 1
     largest = QQ(0)
     for j in range(n + 1):
-        ask()
+        check_budget()
         parts = (c[i] * QQ(math.comb(j, i), math.comb(n, i)) for i in range(j + 1))
         largest = max(largest, abs(sum(parts, QQ(0))))
     return largest
@@ -93,6 +93,6 @@ def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
 def bits_for(error: QQ, angle: QQ) -> int:
     """Bits after the binary point for a small part of an error, if an angle is multiplied."""
     bits = max(8, 5 - exponent(error)) + int(floor(abs(angle))).bit_length()
-    if bits > _MOST_BITS:
+    if bits > _MAX_BITS:
         raise InputError(f"an error of {show(error)} is too small for angles up to {show(angle)}")
     return bits

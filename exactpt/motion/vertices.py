@@ -16,17 +16,17 @@ from librt.vecs import append, vec
 from mypy_extensions import i32, i64
 
 from exactpt.indices import VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import items, native
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
 from exactpt.motion.infinitesimal import displacements
 from exactpt.motion.linear_rows import LinearRows, linear_rows
+from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.ring_order import ring_indices
 from exactpt.motion.vertex import MovingBody, Vertex, VertexList, unused
 
@@ -84,14 +84,14 @@ class Vertices:
         bodies: Sequence[Body],
         rings: Sequence[Sequence[tuple[VertexId, int]]],
         since: Sequence[QQ],
-        frame: Frame,
+        frame: Normalization,
         end: QQ,
         free: Sequence[VertexId] = (),
         *,
         plain: bool = False,
     ) -> None:
         self.counters: Counters = Counters()
-        self.frame: Frame = frame
+        self.frame: Normalization = frame
         self.enclosures: Enclosures = Enclosures(frame)
         self.changes: int = 0
         self._plain: bool = plain
@@ -149,7 +149,7 @@ class Vertices:
         self.next_ids, self.previous_ids = vec[i32](items(ahead)), vec[i32](items(behind))
         for i, (v, size) in enumerate(zip(first.tolist(), sizes.tolist(), strict=True)):
             if i % FEW == 0:
-                ask()
+                check_budget()
             moving = MovingBody(bodies, i, v, size)
             moving.place, moving.since, moving.is_polygon = i, start, True
             moving.enclosures = self.enclosures

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, grown
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
 from exactpt.motion.incidence import Touch, vertex_touch
@@ -168,7 +168,7 @@ class ApproachSearch:
         begin = AlgebraicNumber(now)
         best: Earliest[Touch] = Earliest()
         for pair in self._feature_pairs(v, e):
-            ask()
+            check_budget()
             squared = self._squared(pair.touch.body, pair.touch.other)
             time = pair.first_time(squared, begin, best.until(later))
             if time is not None:

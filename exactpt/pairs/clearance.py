@@ -24,7 +24,7 @@ from typing import Final, NamedTuple, final
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms, quotient_at, square_root
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -272,7 +272,7 @@ def _in_stretch(
         nearest = nearest or _nearest_after(pairs, now)
         after = max(now, AlgebraicNumber(low))
         while True:
-            ask()
+            check_budget()
             stop = _first_change(nearest, pairs, after, until, min(high, until._high))
             if stop is None:
                 break

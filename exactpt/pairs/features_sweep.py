@@ -29,7 +29,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask, searching
+from exactpt.kernel.budget import check_budget, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction
@@ -254,7 +254,7 @@ class PairsSearch:
         best: AlgebraicNumber | None = None
         best_high = float("inf")
         while pending and pending[0][0] <= best_high:
-            ask()
+            check_budget()
             _, k, time, triple = heapq.heappop(pending)
             certifier.move_to(time, [time])
             a, v, b = (vertices.all[i] for i in triple)

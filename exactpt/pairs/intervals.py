@@ -18,7 +18,7 @@ import numpy as np
 
 from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
@@ -191,7 +191,7 @@ def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[Alg
     for pair in feature_pairs(
         a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch).tolist()
     ):
-        ask()
+        check_budget()
         if not (squared or corners or pair.is_of_edge):
             return
         f = pair.at_distance(squared)

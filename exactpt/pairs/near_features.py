@@ -38,12 +38,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, Indices, crossing_pairs, grown
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.kernel.rounding import SLACK, U, check_rounding
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair, feature_pairs
@@ -72,7 +72,7 @@ class NearFeatures:
         places = [track._at(stretch.begin) for track in (*p, *q)]
         frame = frame_for(places, stretch.begin, stretch.end)
         scale = max(frame.scale)  # one for both axes: distances are compared
-        self._frame = Frame(frame.center, (scale, scale), frame.origin, frame.time_scale)
+        self._frame = Normalization(frame.center, (scale, scale), frame.origin, frame.time_scale)
         enclosures = Enclosures(self._frame)
         self._boxes = SweptBoxes(enclosures.images([*p, *q]), enclosures.errors)
         self._pairs: dict[int, FeaturePair] = {}
@@ -142,7 +142,7 @@ class NearFeatures:
         (e, e_to), (f, f_to) = (np.array(body.edges, int).reshape(-1, 2).T for body in self._two)
         found: list[Indices] = []
         for first, last in pairwise(np.linspace(low, high, PARTS + 1).tolist()):
-            ask()
+            check_budget()
             boxes = self._boxes.during(first, last)
             p, q = grown(boxes[:n], by), boxes[n:]
             found += [i * m + j for i, j in crossing_pairs(p, q)]
@@ -155,7 +155,7 @@ class NearFeatures:
 
     def nearest(self, numbers: Indices, low: QQ, high: QQ) -> Indices:
         """Return those pairs that may be nearest of these pairs at a time from low to high."""
-        ask()
+        check_budget()
         at = np.searchsorted(self.all, numbers)
         v, a, b = (ends[at] for ends in self._ends)
         boxes, there = self._during(low, high)

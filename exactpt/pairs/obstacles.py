@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.outline import far_origin
 from exactpt.motion.swept import SweptBoxes
 from exactpt.pairs.boxes import PieceBoxes
@@ -45,7 +45,7 @@ class SlabBoxes:
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
         points = [p for body in bodies for p in body._piece_after(start).corners(start)]
-        self._frame: Frame = frame_for(points or [(QQ(0), QQ(0))], start, end)
+        self._frame: Normalization = frame_for(points or [(QQ(0), QQ(0))], start, end)
         self._enclosures = Enclosures(self._frame)
         self._cuts = [start + (end - start) * k / SLABS for k in range(SLABS + 1)]
         times = [self._frame.time(t) for t in self._cuts]

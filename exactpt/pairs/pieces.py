@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.outline import Straight, far_origin, straight_pieces
 from exactpt.pairs.filters import window
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 FEW: Final = 10
 """Maximum number of pieces of which all pairs are compared without numpy."""
-MOST_VERTICES: Final = 64
+MAX_VERTICES: Final = 64
 """Maximum number of vertices of a body for which comparing two bodies vertex by vertex pays."""
 
 
@@ -136,8 +136,8 @@ def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
     rows: list[MotionPiece] = []
     origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
-        ask()
-        if body.size > MOST_VERTICES:
+        check_budget()
+        if body.size > MAX_VERTICES:
             return None
         pieces = straight_pieces(body, origin=origin)
         if pieces is None:

@@ -14,7 +14,7 @@ from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.obstacles import Obstacles, Stretch
-from exactpt.pairs.pieces import MOST_VERTICES, ScenePieces, pieces_during
+from exactpt.pairs.pieces import MAX_VERTICES, ScenePieces, pieces_during
 from exactpt.pairs.search import LinearSearch
 from exactpt.scene.scene import Scene
 
@@ -86,7 +86,7 @@ class Planner:
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:
         scene, rows = self._scene, self._obstacles.rows
         Scene([body], (scene.start, scene.end))
-        if rows is not None and outline is not None and body.size <= MOST_VERTICES:
+        if rows is not None and outline is not None and body.size <= MAX_VERTICES:
             pieces = straight_pieces(body, outline, self._obstacles.origin)
             if pieces is not None:
                 number = len(scene.bodies)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
@@ -117,7 +117,7 @@ def earliest(
     for candidate in candidates:
         if candidate.low > best.high:
             break
-        ask()
+        check_budget()
         begins = first(candidate.touch, best.until(end))
         if begins is not None:
             best.add(begins[0], begins[1:])

@@ -13,14 +13,14 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import native
 from exactpt.kernel.numbers import enclosing_floats
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, rest_outline, straight_pieces
 from exactpt.pairs.boxes import PieceBoxes, radius_above
-from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, ScenePieces
+from exactpt.pairs.pieces import MAX_VERTICES, MotionPiece, ScenePieces
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
@@ -61,7 +61,7 @@ def pieces_on_demand(scene: Scene) -> ScenePieces | None:
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
     """Return the numbers of `PieceBoxes` but times; None unless all are small and linear."""
     bends = bodies.coefficients[:, :, 2:].any()
-    if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
+    if bends or np.diff(bodies.offsets).max(initial=0) > MAX_VERTICES:
         return None
     first = native(bodies.offsets[:-1])
     numbers = np.zeros((len(bodies), 13))
@@ -77,7 +77,7 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
     """Return the same of bodies one by one; None also if doubles are not exact."""
     numbers: list[tuple[float, ...]] = []
     for body in bodies:
-        ask()
+        check_budget()
         known = _doubles_of(body)
         if known is None:
             return None
@@ -88,7 +88,7 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
     """Return the numbers of a body in straight motion; None unless doubles are exact."""
     doubles = body._shape.doubles
-    if doubles is None or type(body.motion) is not Translation or body.size > MOST_VERTICES:
+    if doubles is None or type(body.motion) is not Translation or body.size > MAX_VERTICES:
         return None
     x, y = body.motion.x._doubles, body.motion.y._doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask, searching
+from exactpt.kernel.budget import check_budget, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.incidence import Touch, renumbered
@@ -198,7 +198,7 @@ class _Search:
     def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> Meeting | None:
         """Compare pairs of pieces in the order of the times before which they do not touch."""
         for enter, a, b in pairs:
-            ask()
+            check_budget()
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("time limit exceeded", None)
             if enter > self.best.high:

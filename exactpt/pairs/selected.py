@@ -13,7 +13,7 @@ from typing import TypeAlias, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import GRACE, ask, within
+from exactpt.kernel.budget import GRACE, check_budget, within
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, renumbered
@@ -112,7 +112,7 @@ class SelectedSearch:
         best: Earliest[tuple[tuple[int, ...], Iterable[Touch]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
         for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):
-            ask()
+            check_budget()
             self.pairs += 1
             until = best.until(scene._end)
             meeting = self._renewed(*pair) if pair in touching else self._first(pair, until)

@@ -15,7 +15,7 @@ from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import near_groups, segments_meet
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.incidence import Touch, renumbered
@@ -32,7 +32,7 @@ Limit: TypeAlias = Callable[[int, int], QQ]
 Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
 """Which pairs of bodies, by two arrays of indices, keep a distance."""
 
-MOST_PAIRS: Final = 250_000
+MAX_PAIRS: Final = 250_000
 """Maximum number of pairs of bodies that share a point at the start."""
 
 
@@ -70,7 +70,7 @@ def initial_touches(
             touches.update(incidences(f, e))
             _check_count(pairs)
     for first, second in _chunks(points, near):
-        ask()
+        check_budget()
         involved = {i: (scene.bodies[i], points[i]) for i in {*first, *second}}
         pairs |= nested_pairs(involved, set(zip(first, second, strict=True)) - pairs)
         _check_count(pairs)
@@ -101,7 +101,7 @@ def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
     near: list[tuple[int, int]] = []
     for first, second in overlapping_pairs(boxes):
         near += zip(first.tolist(), second.tolist(), strict=True)
-        if len(near) > MOST_PAIRS:
+        if len(near) > MAX_PAIRS:
             return None
     return near
 
@@ -165,7 +165,7 @@ def within_at_start(
 ) -> Iterator[tuple[tuple[int, int], bool]]:
     """Yield those of some pairs that are within their distance, and whether they are nearer."""
     for i, j in near:
-        ask()
+        check_budget()
         limit = squared(i, j)
         d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
         if d <= limit:
@@ -197,8 +197,8 @@ def _chunks(
 
 
 def _check_count(pairs: Collection[tuple[int, int]]) -> None:
-    if len(pairs) > MOST_PAIRS:
-        raise InputError(f"more than {MOST_PAIRS} pairs of bodies share a point at the start")
+    if len(pairs) > MAX_PAIRS:
+        raise InputError(f"more than {MAX_PAIRS} pairs of bodies share a point at the start")
 
 
 class Edge(NamedTuple):

@@ -7,7 +7,7 @@ from typing import NamedTuple, final, overload
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, shorten
 from exactpt.pairs.approach import root_above
 from exactpt.pairs.approach import time_within_of_two as time_within
@@ -122,7 +122,7 @@ class Surroundings:
         bound = max(root_above(QQ(at_start.core_squared)) - QQ(at_start.radius), QQ(0))
         best: NearestApproach | None = None
         for other in self._near(bound):
-            ask()
+            check_budget()
             body = scene.body(other)
             if time_within(first, body, scene._start, scene._end, bound**2, "euclidean") is None:
                 continue

@@ -13,7 +13,7 @@ from typing import Any, Final, final
 import numpy as np
 
 from exactpt.errors import BudgetExceeded
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.proof.paths import DIRECTIONS, Cut, Extents, Floats, Frame, Items, Paths, Plane
 
 CLEAR: Final = 1e-11
@@ -68,7 +68,7 @@ class Separation:
             present = set(self._body[items].tolist())
             if not self._counts(present):
                 continue
-            ask()
+            check_budget()
             if self._counted:  # the others do not matter in this node, nor in any below it
                 here = [pair for pair in self._counted if {*pair} <= present]
                 items = items[np.isin(self._body[items], np.ravel(here))]

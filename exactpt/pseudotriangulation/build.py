@@ -14,7 +14,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId, half_edge_vec, vertex_vec
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import items, view
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
@@ -178,7 +178,7 @@ def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     seen = [False] * len(m.origin)
     for h in m.half_edges():
         if not seen[h] and mesh.region[h] != SOLID:
-            ask()
+            check_budget()
             _mark_face(instant, mesh, h, seen)
 
 

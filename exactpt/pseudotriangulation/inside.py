@@ -5,7 +5,7 @@ from __future__ import annotations
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 
@@ -28,7 +28,7 @@ def tile_inside(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> None:
         mesh.corner[h] = True
     i = misses = 0
     while len(rest) > 3:
-        ask()
+        check_budget()
         before, h = rest[i - 1], rest[i]
         if _is_ear(mesh, rest, before, h, predicates):
             e = mesh.flip_in(m.following[h], before)

@@ -22,7 +22,7 @@ from typing import final
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.certificates.predicates import Predicates
 from exactpt.indices import NO_VERTEX, VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
 
 
@@ -95,7 +95,7 @@ class Sweep:
     def run(self) -> list[Diagonal]:
         """Return the diagonals of all gaps, from left to right."""
         for v in sorted_by_x(self.predicates, self.ends):
-            ask()
+            check_budget()
             edges = self.starting.get(v, [])
             self._pass(v, self._from_bottom_to_top(edges))
         return self.diagonals

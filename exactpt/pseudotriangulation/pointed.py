@@ -22,7 +22,7 @@ from typing import NamedTuple
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import Ends, HalfEdge
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.mesh import OUTER, Mesh
@@ -113,7 +113,7 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[HalfEdge]) -> list[Ch
     pending = deque(dict.fromkeys(todo))
     waiting = set(pending)
     while pending:
-        ask()
+        check_budget()
         h = pending.popleft()
         waiting.discard(h)
         if m.origin[h] < 0 or mesh.is_hull(h) or mesh.is_fixed(h):

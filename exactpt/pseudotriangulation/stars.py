@@ -13,7 +13,7 @@ import numpy as np
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.indices import HalfEdge, VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Floats, Indices
 
 Sort: TypeAlias = "Callable[[VertexId, HalfEdge, list[HalfEdge]], list[HalfEdge]]"
@@ -46,7 +46,7 @@ def follow_stars(
     order = np.lexsort((_turn(instant, of, base, to), of))
     h, of, base, to = h[order], of[order], base[order], to[order]
     same = of[1:] == of[:-1]
-    ask()
+    check_budget()
     is_paired = np.zeros(len(h), np.bool_)
     is_paired[1:] |= same
     is_paired[:-1] |= same

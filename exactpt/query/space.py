@@ -27,7 +27,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
@@ -114,7 +114,7 @@ class FreeSpace:
             raise InputError(f"points: row {bad[0]} is not finite: {given[bad[0]].tolist()}")
         kind, (owner, feature) = np.empty(len(given), np.int8), np.full((2, len(given)), -1)
         for k, (x, y) in enumerate(given.tolist()):
-            ask()
+            check_budget()
             spot, _ = find(plane, (rational(x), rational(y)))
             kind[k], owner[k], feature[k] = codes_of(plane, spot)
         return Located(kind, owner, feature)

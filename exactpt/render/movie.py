@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.render.canvas import Canvas, Line, Shape, Tile, marks_of
 from exactpt.render.fixed import near
@@ -153,7 +153,7 @@ def frames_of(film: Film, count: int) -> Iterator[Canvas]:
     window = _window(film, [start + (end - start) * k / _WHOLE for k in range(_WHOLE + 1)])
     step = 0
     for k in range(count + 1):
-        ask()
+        check_budget()
         t = start + (end - start) * k / count
         last = k == count
         while step < len(film.steps) and (last or film.steps[step].time.compare_rational(t) <= 0):

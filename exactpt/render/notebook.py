@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 
-MOST_EVENTS: Final = 2000
-MOST_SECONDS: Final = 5.0
+MAX_EVENTS: Final = 2000
+MAX_SECONDS: Final = 5.0
 """Bounds on the run of a scene that a notebook shows."""
 
 
@@ -37,7 +37,7 @@ def simulation_svg(simulation: Simulation) -> str:
 def scene_player(scene: Scene) -> str | None:
     """Return the animation of a scene in a frame of its own; None if its run takes long."""
     try:
-        film = film_of(scene, max_events=MOST_EVENTS, max_seconds=MOST_SECONDS)
+        film = film_of(scene, max_events=MAX_EVENTS, max_seconds=MAX_SECONDS)
     except BudgetExceeded:
         return None
     return _framed(page_of(film, title="scene"))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 SAMPLES: Final = 240
 """Number of equal parts of the time span at whose ends the distance is computed."""
-MOST_TICKS: Final = 10
+MAX_TICKS: Final = 10
 WIDTH, HEIGHT, LEFT, TOP, ROOM, BELOW = 800, 300, 70, 64, 20, 44
 """Size of a document in pixels, and its margins: left, above, right, below."""
 FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
@@ -77,12 +77,12 @@ def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
 
 
 def _ticks(start: QQ, end: QQ) -> Iterator[tuple[QQ, str]]:
-    """Multiples of 1, 2 or 5 times a power of ten, at most `MOST_TICKS` or so."""
+    """Multiples of 1, 2 or 5 times a power of ten, at most `MAX_TICKS` or so."""
     span = end - start
     step = QQ(10) ** (len(str(span.numerator)) - len(str(span.denominator)) - 2)
     factors = (2, QQ(5, 2), 2)
     k = 0
-    while span / step > MOST_TICKS:
+    while span / step > MAX_TICKS:
         step *= factors[k % 3]
         k += 1
     number = -((-start) // step)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from exactpt.errors import InputError
 from exactpt.files import read_text
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body, is_text
@@ -37,7 +37,7 @@ from exactpt.scene.scene import Scene
 
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:
-    """Read a scene file of at most ``max_bytes``, by default `exactpt.files.MOST_BYTES`.
+    """Read a scene file of at most ``max_bytes``, by default `exactpt.files.MAX_BYTES`.
 
     Raises:
         InputError: one line that names the file, the body, the key and the value.
@@ -159,7 +159,7 @@ def _radius(data: Json, where: str) -> QQ:
 
 
 def _vertex(data: Json, where: str) -> Position:
-    ask()
+    check_budget()
     if isinstance(data, dict):
         an_object(data, where, optional={"x", "y"})
         return _coordinate(data, "x", where), _coordinate(data, "y", where)

@@ -17,10 +17,10 @@ from exactpt.motion.body import is_text
 
 VERSION: Final = 1
 """The version of the file format (docs/format.md)."""
-MOST_DIGITS: Final = 10_000
+MAX_DIGITS: Final = 10_000
 """Maximum number of digits of a numerator or denominator, to bound the cost of arithmetic."""
-MOST_BITS: Final = 33_220
-"""Bit length of the largest integer with `MOST_DIGITS` digits."""
+MAX_BITS: Final = 33_220
+"""Bit length of the largest integer with `MAX_DIGITS` digits."""
 
 DEEPEST: Final = 32
 """Number of lists and objects around each other, from the scene itself on."""
@@ -73,22 +73,22 @@ def exact_number(data: Json, where: str) -> QQ:
     """Return the rational that a number or a string denotes.
 
     Raises:
-        InputError: if it is not a rational, or has more than `MOST_DIGITS`.
+        InputError: if it is not a rational, or has more than `MAX_DIGITS`.
     """
     if not isinstance(data, str):
         raise InputError(f"{where}: not a number: {shown(data)}")
     try:
-        value = QQ(0) if len(data) > 3 * MOST_DIGITS else parse_rational(data)
+        value = QQ(0) if len(data) > 3 * MAX_DIGITS else parse_rational(data)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
-    if len(data) > 3 * MOST_DIGITS or is_too_long(value):
-        raise InputError(f"{where}: more than {MOST_DIGITS} digits: {shorten(str(data))}")
+    if len(data) > 3 * MAX_DIGITS or is_too_long(value):
+        raise InputError(f"{where}: more than {MAX_DIGITS} digits: {shorten(str(data))}")
     return value
 
 
 def is_too_long(value: QQ) -> bool:
-    """Return True if a number has more than `MOST_DIGITS`."""
-    return max(value.numerator.bit_length(), value.denominator.bit_length()) > MOST_BITS
+    """Return True if a number has more than `MAX_DIGITS`."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length()) > MAX_BITS
 
 
 def a_list(data: Json, where: str, length: int | None = None) -> list[Json]:

@@ -23,7 +23,7 @@ from exactpt.motion.motions import (
 )
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
-from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long, parse_json, properties_in
+from exactpt.scene.json_values import MAX_DIGITS, VERSION, is_too_long, parse_json, properties_in
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 def _text(value: QQ) -> str:
     if is_too_long(value):
         raise InputError(
-            f"more than {MOST_DIGITS} digits have no place in a scene file: {show(value)}"
+            f"more than {MAX_DIGITS} digits have no place in a scene file: {show(value)}"
         )
     return str(value)
 

@@ -23,7 +23,7 @@ from exactpt.kernel.integer_polynomial import sign_at, square_free
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational, shorten, show
 from exactpt.kernel.sturm import count_roots, sturm_sequence
 from exactpt.motion.body import Body
-from exactpt.motion.frame import Frame
+from exactpt.motion.normalization import Normalization
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, Pair
 from exactpt.simulation.event import Event
@@ -173,7 +173,7 @@ def _time_from_json(data: Data) -> EventTime:
     return EventTime(low, high, a, b, c, exact, data.get("crossing", True))
 
 
-def _frame_to_json(frame: Frame) -> Data:
+def _frame_to_json(frame: Normalization) -> Data:
     return {
         "center": [str(c) for c in frame.center],
         "scale": list(frame.scale),
@@ -182,10 +182,10 @@ def _frame_to_json(frame: Frame) -> Data:
     }
 
 
-def _frame_from_json(data: Data) -> Frame:
+def _frame_from_json(data: Data) -> Normalization:
     x, y = map(parse_rational, data["center"])
     sx, sy = data["scale"]
-    return Frame((x, y), (sx, sy), parse_rational(data["origin"]), data["time_scale"])
+    return Normalization((x, y), (sx, sy), parse_rational(data["origin"]), data["time_scale"])
 
 
 # Events and contacts

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.testing.questions import Asked, Name, id_of, objects, read_question
 from exactpt.testing.space.exact import SpaceContact, contact_of
 from exactpt.testing.space.queries import SpaceQuery
@@ -85,7 +85,7 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
     asked: list[Asked] = []
     places: list[int] = []
     for number, line in enumerate(lines, first):
-        ask()
+        check_budget()
         if not line.strip():
             continue
         try:

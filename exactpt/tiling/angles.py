@@ -20,7 +20,7 @@ from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import Angles
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, Triple, VertexId, half_edge_vec
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import view
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.vertex import Vertex
@@ -34,7 +34,7 @@ MANY: Final = 50
 """Number of angles from which on they are certified in numpy."""
 FEW: Final = 16
 """Number of certificates from one look at the budget to the next."""
-MOST_OF_FIVE: Final[int] = 20
+MAX_ANGLES_OF_FIVE: Final[int] = 20
 """Maximum number of angles that `CertifiedMesh.certify_five` certifies."""
 
 
@@ -81,7 +81,7 @@ class CertifiedMesh(Angles):
         self.failure_group: FailureGroup = FailureGroup()
         self.checks_rigid: bool = False
         self._after: OneSided = OneSided(certifier, before=False)
-        self._todo: vec[HalfEdge] = half_edge_vec([NO_HALF_EDGE] * MOST_OF_FIVE)
+        self._todo: vec[HalfEdge] = half_edge_vec([NO_HALF_EDGE] * MAX_ANGLES_OF_FIVE)
 
     def after(self) -> OneSided:
         """Predicates just after the current time, whichever that is."""
@@ -98,7 +98,7 @@ class CertifiedMesh(Angles):
             half_edges = [h for h in mesh.map.half_edges() if mesh.region[h] != SOLID]
         for k, h in enumerate(half_edges):
             if k % FEW == 0:
-                ask()
+                check_budget()
             self.certify(h)
         pending = len(self.table.pending)
         self.followers.certify()

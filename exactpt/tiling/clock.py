@@ -12,7 +12,7 @@ from exactpt.errors import AuditError
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.motion.frame import Frame
+from exactpt.motion.normalization import Normalization
 from exactpt.motion.vertex import MovingBody
 
 MAX_TIMES: Final = 15
@@ -28,10 +28,10 @@ class Clock:
         table: holds the times of failure.
     """
 
-    def __init__(self, certifier: Certifier, table: CertificateTable, frame: Frame) -> None:
+    def __init__(self, certifier: Certifier, table: CertificateTable, frame: Normalization) -> None:
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
-        self._frame: Frame = frame
+        self._frame: Normalization = frame
         # What `retreat` restores: the previous event time, and the entries of the current one.
         self._undo: tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None = None
         self._until: tuple[QQ, float] = (certifier.end, frame.time(certifier.end)[0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.indices import HalfEdge
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.pseudotriangulation.mesh import Mesh
 
 
@@ -44,7 +44,7 @@ class FailureGroup:
         to it has asked.
         """
         if self._repair > 0:
-            ask()
+            check_budget()
         self._repair += 1
 
     def touch(self, half_edges: list[HalfEdge]) -> None:

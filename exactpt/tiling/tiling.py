@@ -14,7 +14,7 @@ from exactpt.certificates.queue import EventQueue, EventTime
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.catalogue import Entry
@@ -179,7 +179,7 @@ class Tiling(ABC):
         Raises:
             ContactFound: if there is a contact at that time.
         """
-        ask()
+        check_budget()
         return self.log.take() if self._step(until) else None
 
     def advance_many(self, until: QQ, most: int) -> int:
@@ -196,7 +196,7 @@ class Tiling(ABC):
         try:
             while done < most:
                 if done % FEW == 0:
-                    ask()
+                    check_budget()
                 if not self._step(until):
                     break
                 done += 1

@@ -18,7 +18,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from typing import Final, Generic
 
-from exactpt.workers.work import ENDS, HANGS, MOST_TRIES, UNFINISHED, Item, Result, Step, Work
+from exactpt.workers.work import ENDS, HANGS, MAX_TRIES, UNFINISHED, Item, Result, Step, Work
 
 GRACE: Final = 5.0
 """Seconds of silence beyond three times the announced ones after which a worker is killed."""
@@ -186,7 +186,7 @@ def _ended(
     if item is None:
         return
     tries[item] += 1
-    if tries[item] < MOST_TRIES:
+    if tries[item] < MAX_TRIES:
         again.append(item)
     else:
         yield from _given_up(work, worker, ENDS)

@@ -13,7 +13,7 @@ ENDS = "ends its process"
 HANGS = "hangs"
 UNFINISHED = "is not finished"
 
-MOST_TRIES = 2
+MAX_TRIES = 2
 """How often an item may end its worker before it is given up."""
 
 

@@ -21,7 +21,7 @@ __all__ = ["OUTCOMES", "Files", "hostile_files"]
 
 OUTCOMES: Final = ("read", "refused", "spent", "broken", "FAULT")
 
-MOST_MEMORY: Final = 300_000_000
+MAX_MEMORY: Final = 300_000_000
 """Maximum growth of the process, in bytes, by the reading of one file."""
 
 
@@ -57,7 +57,7 @@ class Files(Check):
         with TemporaryDirectory() as folder:
             ended = readers.read(kind, file, Random(f"reader {self.seed} {number}"), Path(folder))
         grown = budget.resident_memory() - before
-        if not ended.fault and grown > MOST_MEMORY:
+        if not ended.fault and grown > MAX_MEMORY:
             ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
         seconds, ms = ended.seconds, 1000 * ended.seconds
         counts = Counts({(kind, "files"): 1, (kind, ended.outcome): 1, (kind, "ms"): ms})

@@ -74,7 +74,7 @@ KEYS: Final = [
 SCENES: Final = 150
 PATHS: Final = 15
 """The numbers of scenes from which proofs are made, and of those with a path among them."""
-MOST_LINES: Final = 120
+MAX_LINES: Final = 120
 SHORT: Final = 6
 """Right proofs of n lines are taken with a probability of SHORT / n, so in equal time each."""
 CODES: Final = {"accepted": 0, "rejected": 1, "no proof": 2, "not decided": 4}
@@ -113,7 +113,7 @@ def base(number: int) -> tuple[bytes, tuple[str, ...]] | None:
     except InputError:  # bodies with a radius
         return None
     lines = proved.text.decode().splitlines()
-    return (proved.scene, tuple(lines)) if len(lines) <= MOST_LINES else None
+    return (proved.scene, tuple(lines)) if len(lines) <= MAX_LINES else None
 
 
 def damaged(seed: int, number: int) -> tuple[bytes, bytes] | None:

@@ -37,7 +37,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import TINY, U, check_rounding
@@ -115,7 +115,7 @@ class SpaceContacts:
         candidates = ~self.refused[first:last]
         candidates[candidates] = _may_touch(self._kind, self._points[first:last][candidates])
         for k in (np.nonzero(candidates)[0] + first).tolist():
-            ask()
+            check_budget()
             self.exact[k] = True
             contact = self._decide(k)
             if contact is not None:

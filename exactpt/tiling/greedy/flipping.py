@@ -18,7 +18,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import part_of
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import flip, flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -73,7 +73,7 @@ class FlippingRules(Rules):
         """See `Rules.resume`."""
         mesh, after = self.certified.mesh, self.certified.after()
         for h in mesh.flippable():
-            ask()
+            check_budget()
             visits = shadow(mesh, h, after)
             if visits is not None:  # it is None only at a contact, which ends the run
                 self._shadows.resume(h, visits)

@@ -19,7 +19,7 @@ from mypy_extensions import i64
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
 from exactpt.indices import Ends, VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Diagonal
@@ -95,7 +95,7 @@ class _Sweep:
         popped: i64 = 0
         while self._heap_size:
             if popped % FEW == 0:
-                ask()
+                check_budget()
             popped += 1
             key, number = self._heap_key[0], self._heap[0]
             self._pop()

@@ -25,7 +25,7 @@ from mypy_extensions import i64
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.indices import NO_VERTEX, VertexId, vertex_vec
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.tiling.greedy.convex_ring import Chain, chains_of, is_above
 
 NO_ARC: Final = -1
@@ -182,7 +182,7 @@ class VerticalDecomposition:
         active: list[int] = []  # bodies on the sweep line, from bottom to top
         gaps = [self.add_cell(NO_ARC)]  # the cells between them
         for v in sorted_by_x(instant, list(self.vertex)):
-            ask()
+            check_budget()
             arc = arc_of[v]
             own = arc >> 1
             at = bisect_left(

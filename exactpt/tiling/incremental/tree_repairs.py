@@ -23,7 +23,7 @@ from exactpt.certificates.certificate import POINT_ORDER
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
 from exactpt.indices import Ends, VertexId
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.events import Log
 from exactpt.tiling.incremental.certified_trees import CertifiedTrees
@@ -66,7 +66,7 @@ class TreeRepairs:
         rounds = 0
         self._is_alone = sum(map(len, self._certified.violated)) == 1
         while any(self._certified.violated):
-            ask()  # repairs of a forged tree may have no end
+            check_budget()  # repairs of a forged tree may have no end
             rounds += 1
             if rounds <= 16 + n // 4 and self._repair_one():
                 self._is_alone &= not any(self._certified.violated)

@@ -7,7 +7,7 @@ from itertools import chain, pairwise
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.indices import Ends
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
@@ -48,7 +48,7 @@ def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[Ends, Label]
     geodesics = Geodesics(instant, triangulation, triangles)
     sets: dict[Ends, set[int]] = {}
     for tree, nodes, vertices, is_hole in chain.from_iterable(forest.bodies):
-        ask()
+        check_budget()
         ring = [triangulation.ring_edge[v] for v in vertices[:-1]]
         cycle = (geodesics.around_contents if is_hole else geodesics.from_leftmost)(ring)
         for k, node in enumerate(nodes):

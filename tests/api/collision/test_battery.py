@@ -5,7 +5,7 @@ import pytest
 from fuzz.battery import BATTERY, play, table
 
 QUICK = ("row", "mirror", "polygons in step, corner")
-MOST_REBUILDS = 30
+MAX_REBUILDS = 30
 
 
 @pytest.mark.long("row end to end", "row, closing in")
@@ -21,7 +21,7 @@ def test_battery(name):
 
     print("\n".join(table(rows)))  # noqa: T201 - shown with -s
     assert [row.differences for row in rows] == [[]] * len(rows)
-    assert all(row.rebuilds <= MOST_REBUILDS for row in rows)
+    assert all(row.rebuilds <= MAX_REBUILDS for row in rows)
 
 
 @pytest.mark.cgal

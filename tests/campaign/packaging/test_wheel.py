@@ -147,7 +147,7 @@ def test_everything_but_the_optional_can_be_imported(empty):
     code = (
         "import exactpt, pkgutil, importlib\n"
         "for name in exactpt.__all__: getattr(exactpt, name)\n"
-        "adapters = {'exactpt.kernel.sympy_door', 'exactpt.exchange.shapely_adapter',\n"
+        "adapters = {'exactpt.kernel.sympy_adapter', 'exactpt.exchange.shapely_adapter',\n"
         "    'exactpt.testing.strategies'}\n"
         "for m in pkgutil.walk_packages(exactpt.__path__, 'exactpt.'):\n"
         "    if m.name not in adapters | {'exactpt.__main__'}: importlib.import_module(m.name)\n"

@@ -17,8 +17,8 @@ from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import frame_for
 from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.normalization import frame_for
 from exactpt.motion.track import track
 from fuzz.filter_attacks import asked, judge
 

@@ -9,10 +9,10 @@ from exactpt.certificates.moment import exact_time
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.normalization import Normalization, frame_for
 
 ordinary = st.floats(-1e6, 1e6) | st.integers(-100, 100) | st.fractions(-9, 9, max_denominator=9)
-FRAME = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+FRAME = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 paths = st.lists(ordinary, max_size=2)
 
 

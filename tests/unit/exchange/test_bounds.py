@@ -111,7 +111,7 @@ def test_a_few_copies_are_made(tmp_path):
 
 
 def test_points_of_curves_are_counted(refused, monkeypatch):
-    monkeypatch.setattr(svg, "_MOST_POINTS", 1000)
+    monkeypatch.setattr(svg, "_MAX_POINTS", 1000)
     text = HEAD + '<circle r="100"/>' * 20 + "</svg>"
 
     assert "more than 1000 points: raise" in refused("drawing.svg", text, "--tolerance", "0.01")
@@ -177,7 +177,7 @@ def test_many_rings_of_one_path(monkeypatch, kind):
 
 
 def test_rings_nested_without_end_are_refused(monkeypatch):
-    monkeypatch.setattr(shapes, "_MOST_NESTED", 1000)
+    monkeypatch.setattr(shapes, "_MAX_NESTED", 1000)
 
     with pytest.raises(InputError, match="more than 1000 pairs of its outlines are nested"):
         shapes.nested(rings("concentric", 100))
@@ -186,7 +186,7 @@ def test_rings_nested_without_end_are_refused(monkeypatch):
 @pytest.mark.parametrize("command", ["collide", "convert"])
 def test_all_in_one_place(tmp_path, capsys, monkeypatch, command):
     """Of 20,000 points in one place 200 million pairs touch."""
-    monkeypatch.setattr(initial, "MOST_PAIRS", 1000)
+    monkeypatch.setattr(initial, "MAX_PAIRS", 1000)
     source = tmp_path / "shapes.wkt"
     source.write_text(f"MULTIPOINT ({', '.join(['(1 1)'] * 100)})")
     assert convert(source) == 0

@@ -14,7 +14,7 @@ from exactpt import arrays
 from exactpt.certificates.kinetic import CertificateQueue
 from exactpt.cli import main
 from exactpt.errors import InputError, RoundingError
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import check_rounding
 from exactpt.scene.generate import FAMILIES, generate
@@ -97,7 +97,7 @@ def _questions():
     yield "set_motion", lambda: simulation.copy().set_motion("ball", exactpt.Translation())
     yield "advance", watched.advance
     yield "watch", lambda: watched.watch("g", Polynomial([1, -1]))
-    yield "ask", ask
+    yield "ask", check_budget
 
 
 @needs_mxcsr

@@ -12,8 +12,8 @@ from strategies import algebraics, as_rational, fractions
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.motions import Rigid
+from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.track import track
 
 UNIT = Fraction(1, 2**53)
@@ -118,7 +118,7 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
 
 def test_bug_a_turning_track_of_doubles_is_moderate():
     """Its integers are beyond 2^100, but only their ratios matter."""
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
     motion = Rigid([0.1234567, 0.7654321], pivot=(0.9876543, -0.3456789), x=[0.1, 0.3])
     path = motion.track((Polynomial([1.2345678]), Polynomial([0.5678901])))
@@ -147,7 +147,7 @@ def test_a_center_near_the_points_keeps_doubles():
 
 def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
     """1e-400 becomes 0.0, which passes for moderate and exact; the exact value must be tested."""
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
     tiny = Polynomial([1, Fraction(1, 10**400)])
 
@@ -158,7 +158,7 @@ def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
 
 def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     """A cubic of immoderate size left ``errors`` at two entries: an IndexError later."""
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
 
     path = track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)
@@ -205,7 +205,7 @@ def test_ordinary_scenes_keep_their_integers(points, x, end):
 
 
 def test_integers_are_exact_as_far_as_doubles_are():
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
 
     exact_ones = enclosures.images(
@@ -224,7 +224,7 @@ def test_integers_are_exact_as_far_as_doubles_are():
 
 
 def test_tracks_of_one_body_have_one_motion():
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
     path, other, rest = Polynomial([1, 2]), Polynomial([7, 2]), Polynomial([1])
     tracks = [track(x, rest, None, None) for x in (path, other, rest, path)]
@@ -237,7 +237,7 @@ def test_tracks_of_one_body_have_one_motion():
 
 def test_integer_vertices_among_others_of_one_body():
     """Tracks of one motion whose denominators differ have different numerators."""
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
     xs = (3, QQ(1, 2), 0, 2**60, -5)
     tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
@@ -252,7 +252,7 @@ def test_integer_vertices_among_others_of_one_body():
 def test_the_bound_is_at_most_twice_the_largest_error():
     """Cut to a quarter it would be wrong; scenes hardly ever show that, as few vertices are so."""
     worst = 1 + UNIT * (1 - Fraction(1, 2**30))
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
 
     image = enclosures.images([track(Polynomial([worst]), Polynomial([0]), None, None)])[0]

@@ -10,8 +10,8 @@ from strategies import as_rational, doubles, fractions
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import frame_for
 from exactpt.motion.motions import Affine, Rigid, Translation
+from exactpt.motion.normalization import frame_for
 from exactpt.motion.swept import SweptBoxes
 
 coefficients = st.lists(st.one_of(fractions, doubles.map(lambda x: x % 8)), max_size=4)

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from exactpt import Body, Pieces, Rigid, Translation
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import CANCELLING
+from exactpt.motion.normalization import Normalization, frame_for
 
 ordinary = st.floats(-1e6, 1e6) | st.integers(-1000, 1000).map(float)
 doubles = ordinary | st.floats(allow_nan=False, allow_infinity=False)
@@ -21,7 +21,7 @@ exponents = st.integers(-1000, 1000) | st.sampled_from([0, 0, 7, -7])
 
 
 def frame_of(center, scale):
-    return Frame((QQ(center[0]), QQ(center[1])), scale, QQ(0), 0)
+    return Normalization((QQ(center[0]), QQ(center[1])), scale, QQ(0), 0)
 
 
 @st.composite
@@ -30,7 +30,7 @@ def frames(draw):
     origin = draw(st.sampled_from([0, 0, Fraction(1, 3), 5]) | ordinary)
     scale = draw(exponents), draw(exponents)
     x, y = map(rational, center)
-    return Frame((x, y), scale, rational(origin), draw(st.integers(-20, 20)))
+    return Normalization((x, y), scale, rational(origin), draw(st.integers(-20, 20)))
 
 
 def contents(images):
@@ -38,7 +38,7 @@ def contents(images):
     return [repr((i.xs, i.ys, i.ws, i.degree, i.motion)) for i in images]
 
 
-IDENTITY = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+IDENTITY = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
 
 @given(
@@ -121,7 +121,7 @@ def test_trajectories_are_made_when_asked_for():
 )
 def test_others_have_those_of_their_trajectories(vertices, motion):
     piece = Body("b", vertices, motion)._piece_after(QQ(0))
-    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
     ours, expected = Enclosures(frame).of_piece(piece), Enclosures(frame).images(piece.tracks)
 

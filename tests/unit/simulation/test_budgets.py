@@ -14,7 +14,7 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel import budget
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.budget import ask, within
+from exactpt.kernel.budget import check_budget, within
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
@@ -106,8 +106,11 @@ def test_the_limit_is_asked_for_everywhere(monkeypatch, family, tiling):
     for module in list(sys.modules.values()):
         if module is budget:  # modules that are imported while this test runs keep the real one
             continue
-        if module.__name__.startswith("exactpt") and getattr(module, "ask", None) is ask:
-            monkeypatch.setattr(module, "ask", count)
+        if (
+            module.__name__.startswith("exactpt")
+            and getattr(module, "check_budget", None) is check_budget
+        ):
+            monkeypatch.setattr(module, "check_budget", count)
     simulation = Simulation(scene, tiling=tiling)
     contact = simulation.run_to_contact()
     end = scene.end if contact is None else contact.time.canonical_interval()[1]
@@ -171,11 +174,11 @@ def test_bounds_that_are_none(option, value):
 
 def test_budgets_in_budgets():
     with within(clock.monotonic() + 100), within(None, 10**12):
-        ask()
+        check_budget()
         with pytest.raises(BudgetExceeded), within(clock.monotonic()):
-            ask()
-        ask()
-    ask()
+            check_budget()
+        check_budget()
+    check_budget()
 
 
 @pytest.mark.parametrize("command", ["collide", "simulate", "tile"])
@@ -240,7 +243,7 @@ def test_in_the_search_of_straight_motion_the_start_is_proved(monkeypatch):
     def stop():
         raise BudgetExceeded("time limit exceeded", None)
 
-    monkeypatch.setattr("exactpt.motion.slabs.ask", stop)
+    monkeypatch.setattr("exactpt.motion.slabs.check_budget", stop)
 
     with pytest.raises(BudgetExceeded) as spent:
         first_contact(many_moving(40))

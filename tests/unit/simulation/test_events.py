@@ -14,8 +14,8 @@ from exactpt.collision.driver import Driver
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.frame import Frame
 from exactpt.motion.motions import Translation
+from exactpt.motion.normalization import Normalization
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
@@ -30,13 +30,13 @@ CROWDS = ["convex", "ballistic", "stars", "letters", "blobs", "polygons_in_step"
 @pytest.fixture
 def computed(monkeypatch):
     """The exact times that have been enclosed in doubles: as each is that is computed."""
-    times, enclosure = [], Frame.enclosure
+    times, enclosure = [], Normalization.enclosure
 
     def noted(frame, time):
         times.append(time)
         return enclosure(frame, time)
 
-    monkeypatch.setattr(Frame, "enclosure", noted)
+    monkeypatch.setattr(Normalization, "enclosure", noted)
     return times
 
 

@@ -18,7 +18,7 @@ from exactpt import (
 from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import ExactPTError
 from exactpt.kernel import budget as kernel_budget
-from exactpt.kernel.budget import ask
+from exactpt.kernel.budget import check_budget
 from exactpt.proof.emit import ProofRun
 
 P = Body("p", [(0, 0)], Translation([0, 1]))
@@ -72,8 +72,11 @@ class Interrupting:
         for module in list(sys.modules.values()):
             if module is kernel_budget:  # modules imported meanwhile take the real one from it
                 continue
-            if module.__name__.startswith("exactpt") and getattr(module, "ask", None) is ask:
-                monkeypatch.setattr(module, "ask", self)
+            if (
+                module.__name__.startswith("exactpt")
+                and getattr(module, "check_budget", None) is check_budget
+            ):
+                monkeypatch.setattr(module, "check_budget", self)
 
     def __call__(self):
         self.now += 1

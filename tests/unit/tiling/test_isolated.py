@@ -155,7 +155,7 @@ def test_advance_many_stops_between_events(monkeypatch):
         if len(calls) == 3:
             raise BudgetExceeded("time limit exceeded", None)
 
-    monkeypatch.setattr(tilings, "ask", ask)
+    monkeypatch.setattr(tilings, "check_budget", ask)
     with pytest.raises(BudgetExceeded):
         kinetic.advance_many(scene._end, 1000)
     assert kinetic.log.is_recording

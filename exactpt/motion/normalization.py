@@ -12,7 +12,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, final
 
-from exactpt.kernel.budget import LONG, ask
+from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @final
-class Frame:
+class Normalization:
     """A normalisation of space and time.
 
     Attributes:
@@ -108,7 +108,7 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
     if origin:
         for i in range(n - 1):
             if n > LONG:
-                ask()
+                check_budget()
             for j in range(n - 2, i - 1, -1):
                 f[j] += origin * f[j + 1]
     factor = QQ(1)
@@ -118,7 +118,7 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
     return f
 
 
-def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
+def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Normalization:
     """Return a normalisation in which these points and the time span are of moderate size.
 
     It shifts and scales only where needed, so that the integers of an ordinary scene stay
@@ -130,7 +130,7 @@ def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
     r = binary_exponent(span)
     r = 0 if -10 <= r <= 10 else r
     far = max(abs(start), abs(end)) > 16 * span
-    return Frame((cx, cy), (sx, sy), start if far else QQ(0), r)
+    return Normalization((cx, cy), (sx, sy), start if far else QQ(0), r)
 
 
 def _axis(values: list[QQ]) -> tuple[QQ, int]:
