@@ -36,7 +36,7 @@ __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 CALLS: Final = {
     "polynomials": (
-        incidence.orientation,
+        incidence.orientation_polynomial,
         perturbation.copy_orientation,
         perturbation.x_order,
         perturbation.cross,

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.testing import Moving, Question, Truth
@@ -92,7 +92,7 @@ def kind_of(body: Moving) -> str:
     if not body.closed:
         return "chain"
     points = [(rational(x), rational(y)) for x, y in body.vertices]
-    turns = [side(points[i - 2], points[i - 1], points[i]) for i in range(n)]
+    turns = [orientation(points[i - 2], points[i - 1], points[i]) for i in range(n)]
     same = min(turns) > 0 or max(turns) < 0
     return "convex" if same and n == len(set(points)) else "simple"
 

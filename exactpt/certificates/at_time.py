@@ -19,11 +19,16 @@ from librt.vecs import vec
 from numpy.typing import NDArray
 
 from exactpt.certificates.exact_places import ExactPlaces
-from exactpt.certificates.perturbation import copies_first, cross, orientation, x_order_terms
+from exactpt.certificates.perturbation import (
+    copies_first,
+    cross,
+    orientation_polynomial,
+    x_order_terms,
+)
 from exactpt.certificates.positions import K, cross_sign, positions_at
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.reasons import reason
-from exactpt.geometry.predicates import Point, side
+from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
@@ -166,7 +171,7 @@ class PredicatesAt(Predicates):
             self._counters.filtered += 1
             return s
         if s == NOT_EXACT:
-            s = side(self.position(a), self.position(b), self.position(c))
+            s = orientation(self.position(a), self.position(b), self.position(c))
         is_zero = s == 0 and not are_copies
         self._count(u, v, w, is_zero=is_zero)
         if not are_copies:
@@ -176,7 +181,7 @@ class PredicatesAt(Predicates):
                 return s
         elif s := self._sign_of_copies(u, v, w):
             return s
-        return self.first_sign((orientation(u, v, w),))
+        return self.first_sign((orientation_polynomial(u, v, w),))
 
     def _count(self, *vertices: Vertex, is_zero: bool) -> None:
         why = reason(*vertices, is_zero=is_zero, exact_only=self._exact_only)

@@ -15,7 +15,7 @@ from mypy_extensions import i64
 from exactpt.certificates import coefficients
 from exactpt.certificates.linear_vectorized import linear_orientations
 from exactpt.certificates.moment import Moment, Numbered, exact_time
-from exactpt.certificates.perturbation import orientation, x_order
+from exactpt.certificates.perturbation import orientation_polynomial, x_order
 from exactpt.certificates.positions import Positions
 from exactpt.certificates.queue import EventTime, earlier
 from exactpt.certificates.reasons import reason
@@ -28,7 +28,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.kernel.rounding import INFINITY, UNSURE, Answer
 from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation as base_orientation
+from exactpt.motion.incidence import orientation_polynomial as base_orientation
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH
 
 if TYPE_CHECKING:
@@ -310,7 +310,7 @@ class Certifier:
             after = s or now.sign_after(f)
             return after, self._first_root(f, until, a.id, b.id, c.id), s == 0
         meeting = self.first_coincidence(a.id, b.id, c.id)
-        f = orientation(a, b, c)
+        f = orientation_polynomial(a, b, c)
         if not f:
             return 0, meeting, True
         root = self._first_root(f, until, a.id, b.id, c.id)

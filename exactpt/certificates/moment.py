@@ -10,7 +10,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
-from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.incidence import difference, orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.course import Piece
@@ -71,7 +71,7 @@ def exact_time(
     if number is None:
         tracks = [piece.track(vertex) for piece, vertex in vertices]
         if len(tracks) == 3:
-            f = orientation(tracks[0], tracks[1], tracks[2])
+            f = orientation_polynomial(tracks[0], tracks[1], tracks[2])
         else:
             f = difference(tracks[0].x, tracks[0].w, tracks[1].x, tracks[1].w)
         number = linear_root(f) or _isolated(f, time, frame)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.certificates.certifier import X_ORDER
 from exactpt.certificates.coincidence import nearer, nearer_copy
-from exactpt.certificates.perturbation import cross, orientation, x_order
+from exactpt.certificates.perturbation import cross, orientation_polynomial, x_order
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.reasons import reason
 from exactpt.indices import VertexId
@@ -39,7 +39,7 @@ class OneSided(Predicates):
             if s:
                 certifier.counters.filtered += 1
                 return s
-        return self._exact(orientation(va, vb, vc), va, vb, vc)
+        return self._exact(orientation_polynomial(va, vb, vc), va, vb, vc)
 
     def _filtered_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """Return the sign of the orientation, also if it vanishes now; 0 if undecided."""

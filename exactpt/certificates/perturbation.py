@@ -50,7 +50,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, sc
 from exactpt.kernel.numbers import ZZ
 from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation as base_orientation
+from exactpt.motion.incidence import orientation_polynomial as base_orientation
 from exactpt.motion.track import Track
 from exactpt.motion.vertex import Vertex
 
@@ -102,7 +102,7 @@ def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:
     return subtract(bx, ax), subtract(by, ay)
 
 
-def orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
+def orientation_polynomial(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
     """Return a function with the sign of the orientation; ``()``, if always 0, counts as -1."""
     if a.is_copy_of(b) or b.is_copy_of(c) or c.is_copy_of(a):
         return copy_orientation(a, b, c)

@@ -66,7 +66,7 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
         search = pair_search(scene, exact_only=exact_only, ignoring=groups, max_seconds=seconds)
-        if method == "pairs" or groups or not search.is_blind:
+        if method == "pairs" or groups or not search.lacks_boxes:
             return search
     from exactpt.collision.tiling_search import TilingSearch
 
@@ -140,7 +140,7 @@ def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) ->
     For a single first contact from a cold start the search over pairs is the faster one, also
     for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
     (`python -m benchmarks first-contact`); "auto" leaves it only where it has no boxes
-    (`PairsSearch.is_blind`). Only a tiling can continue after the contact and answer questions
+    (`PairsSearch.lacks_boxes`). Only a tiling can continue after the contact and answer questions
     about the free space.
     """
     return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))

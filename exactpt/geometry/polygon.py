@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Final
 
-from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.geometry.simple import edges
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
@@ -34,14 +34,14 @@ def is_counter_clockwise(points: Sequence[Point]) -> bool:
     """
     n = len(points)
     first = min(range(n), key=points.__getitem__)
-    turn = side(points[first - 1], points[first], points[(first + 1) % n])
+    turn = orientation(points[first - 1], points[first], points[(first + 1) % n])
     return turn > 0 if turn else signed_area2(points) > 0
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
     """Return True if the closed segments ab and cd intersect."""
-    abc, abd = side(a, b, c), side(a, b, d)
-    cda, cdb = side(c, d, a), side(c, d, b)
+    abc, abd = orientation(a, b, c), orientation(a, b, d)
+    cda, cdb = orientation(c, d, a), orientation(c, d, b)
     if abc * abd < 0 and cda * cdb < 0:
         return True
     return (
@@ -99,7 +99,9 @@ def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> b
     a = points[e[0] if e[1] == v else e[1]]
     b = points[f[0] if f[1] == v else f[1]]
     # Edges with a common end overlap if they leave it in the same direction.
-    return side(a, points[v], b) == 0 and (between(points[v], a, b) or between(points[v], b, a))
+    return orientation(a, points[v], b) == 0 and (
+        between(points[v], a, b) or between(points[v], b, a)
+    )
 
 
 def contains(
@@ -119,7 +121,7 @@ def contains(
         above = a[1] > y
         if (above == (b[1] > y) and a[1] != y and b[1] != y) or (a[0] < x and b[0] < x):
             continue  # the edge contains no point of the ray to the right from p
-        s = side(a, b, p)
+        s = orientation(a, b, p)
         if s == 0 and between(a, b, p):
             return True
         # The ray crosses the edge (half-open in y, so a vertex counts once).

@@ -2,7 +2,7 @@
 
 `orient2d` uses + - * only, so it works over any ring: over the rationals it is a static
 predicate, over polynomials in t the function of a certificate. (Certificates themselves
-take it from homogeneous coordinates, `exactpt.motion.incidence.orientation`.)
+take it from homogeneous coordinates, `exactpt.motion.incidence.orientation_polynomial`.)
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def orient2d(a: tuple[R, R], b: tuple[R, R], c: tuple[R, R]) -> R:
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 
 
-def side(a: Point, b: Point, c: Point) -> int:
+def orientation(a: Point, b: Point, c: Point) -> int:
     """1, 0 or -1 as c lies left of, on, or right of the line from a to b."""
     return sign(orient2d(a, b, c))
 

@@ -55,7 +55,7 @@ def is_text(name: object) -> bool:
         return False
 
 
-def refuse_rounded(bodies: Iterable[Body]) -> None:
+def refuse_radii(bodies: Iterable[Body]) -> None:
     """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
 
     Raises:

@@ -9,7 +9,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import orientation
+from exactpt.motion.incidence import orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
@@ -35,7 +35,7 @@ def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
         now = AlgebraicNumber(time)
         for a, b, c in triples:
             check_budget()
-            f = orientation(*(piece.track(i) for i in (a, b, c)))
+            f = orientation_polynomial(*(piece.track(i) for i in (a, b, c)))
             if not f or now.sign_after(f) < 0 or any(roots_after(f, now, until)):
                 return False
         if until == end:

@@ -52,7 +52,7 @@ def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
     return subtract(multiply(q, pw), multiply(p, qw))
 
 
-def orientation(a: Track, b: Track, c: Track) -> IntPoly:
+def orientation_polynomial(a: Track, b: Track, c: Track) -> IntPoly:
     """Return a positive multiple of the orientation of three trajectories.
 
     It is the determinant of the rows (x, y, w), positive where a, b, c turn left.
@@ -76,7 +76,7 @@ def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:
 
 def lies_on(v: Track, a: Track, b: Track, t: AlgebraicNumber) -> bool:
     """Return True if v is in the closed segment ab: on its line, and (a - v) . (b - v) <= 0."""
-    if t.sign_of(orientation(a, b, v)) != 0:
+    if t.sign_of(orientation_polynomial(a, b, v)) != 0:
         return False
     along_x = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))
     along_y = multiply(difference(v.y, v.w, a.y, a.w), difference(v.y, v.w, b.y, b.w))

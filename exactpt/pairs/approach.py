@@ -16,7 +16,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch
-from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.search import first_among_pieces
@@ -153,7 +153,7 @@ def _first(scene: Scene, d: QQ, norm: Norm) -> Near | None:
     if norm == "euclidean":
         return _euclidean(scene, d)
     if norm == "max":
-        return _by_pairs(scene, pairs_that_come_near(scene, d), d, norm)
+        return _by_pairs(scene, candidate_pairs(scene, d), d, norm)
     return _on_axis(scene, d, norm)
 
 
@@ -162,7 +162,7 @@ def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Near | N
     if norm in ("x", "y"):  # a gap on one axis bounds no box
         return _by_pairs(scene, selection.all_pairs(), d, norm)
     reach = root_above(d) if norm == "euclidean" else d
-    return _by_pairs(scene, selection.of(pairs_that_come_near(scene, reach)), d, norm)
+    return _by_pairs(scene, selection.of(candidate_pairs(scene, reach)), d, norm)
 
 
 def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Near | None:

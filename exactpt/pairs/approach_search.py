@@ -25,7 +25,7 @@ from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair
-from exactpt.pairs.rational import Earliest, Meeting
+from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.start import Apart, Limit
 from exactpt.scene.scene import Scene
 
@@ -72,12 +72,12 @@ class ApproachSearch:
         with np.errstate(all="ignore"):
             self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
-    def run(self) -> Meeting | None:
+    def run(self) -> LinearContact | None:
         """Return the first approach, if no two bodies are within their distance at the start."""
         found = (self.first(*slab) for slab in self._swept.slabs(self.near))
         return next((meeting for meeting in found if meeting is not None), None)
 
-    def first(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
+    def first(self, now: QQ, later: QQ, near: Near) -> LinearContact | None:
         """Return the first approach in (now, later] of the candidates of this slab."""
         return self._search(now, later, self._left(now, later, near), DEPTH)
 
@@ -110,7 +110,7 @@ class ApproachSearch:
 
     def _search(
         self, now: QQ, later: QQ, near: Near, depth: int, lasting: int = 0
-    ) -> Meeting | None:
+    ) -> LinearContact | None:
         """Return the first approach in (now, later] of vertices to edges, given by their numbers.
 
         Pairs that hover at about their distance are near in both halves of every interval: exact
@@ -163,7 +163,7 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Meeting | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> LinearContact | None:
         """Return the first approach, exactly."""
         begin = AlgebraicNumber(now)
         best: Earliest[Touch] = Earliest()
@@ -173,7 +173,7 @@ class ApproachSearch:
             time = pair.first_time(squared, begin, best.until(later))
             if time is not None:
                 best.add(time, [pair.touch] if pair.is_inside(time) else [])
-        return None if best.time is None else Meeting(best.time, best.found)
+        return None if best.time is None else LinearContact(best.time, best.found)
 
     def _feature_pairs(self, v: Indices, e: Indices) -> Iterator[FeaturePair]:
         """Yield the pairs of features to which a vertex and an edge belong, each once."""

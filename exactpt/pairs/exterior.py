@@ -8,7 +8,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.incidence import Touch, difference, orientation_polynomial
 from exactpt.motion.track import Track
 
 
@@ -54,7 +54,7 @@ def _sides(
     c: Track, d: Track, v: Track, along: tuple[IntPoly, IntPoly], time: AlgebraicNumber
 ) -> tuple[int, int]:
     """Return on which side of cd each of the two points is: 1 for the left one, -1."""
-    sign = time.sign_of(orientation(c, d, v))
+    sign = time.sign_of(orientation_polynomial(c, d, v))
     if sign:
         return sign, sign
     (x, y), (ux, uy) = _vector(c, d), along

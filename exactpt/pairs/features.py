@@ -27,7 +27,7 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, difference, orientation, vertex_touch
+from exactpt.motion.incidence import Touch, difference, orientation_polynomial, vertex_touch
 from exactpt.motion.track import Track
 
 
@@ -109,7 +109,7 @@ class FeaturePair:
             return subtract(scale(n, ZZ(squared.denominator)), scale(d, ZZ(squared.numerator)))
         if self.is_of_edge:
             a, b = self.ends
-            return orientation(a, b, self.v)
+            return orientation_polynomial(a, b, self.v)
         dx, dy = _vector(self.v, self.ends[0])
         if len(dx) == len(dy) == 2 and dx[0] * dy[1] != dx[1] * dy[0]:
             return (ZZ(1),)

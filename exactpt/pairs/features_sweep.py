@@ -38,7 +38,7 @@ from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.rational import Earliest, Meeting
+from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
@@ -107,7 +107,7 @@ class PairsSearch:
         return None if self._passed is None else fraction(self._passed)
 
     @property
-    def is_blind(self) -> bool:
+    def lacks_boxes(self) -> bool:
         """True if a tiling is expected to decide less exactly: many vertices have no boxes.
 
         Such a vertex is compared with all edges, and its edges with all vertices. The tiling
@@ -233,7 +233,7 @@ class PairsSearch:
     def _ignores(self, i: int, j: int) -> bool:
         return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
 
-    def _search(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
+    def _search(self, now: QQ, later: QQ, near: Near) -> LinearContact | None:
         """Return the first contact in (now, later] of bodies without radius."""
         if not len(near[0]):
             return None
@@ -273,4 +273,4 @@ class PairsSearch:
         # `_may_touch` cannot start to touch.
         features = sorted({*near[0].tolist(), *ends[near[1]].ravel().tolist()})
         found = touches(certifier, vertices, [ids[i] for i in features])
-        return Meeting(best, [t for t in found if not self._ignores(t.body, t.other)])
+        return LinearContact(best, [t for t in found if not self._ignores(t.body, t.other)])

@@ -13,7 +13,7 @@ from exactpt.kernel.numbers import QQ, ZZ, finite
 from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.incidence import Touch, difference, orientation_polynomial
 from exactpt.motion.outline import is_rigid
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
@@ -196,6 +196,6 @@ def _normal(
     x, y = (nearest_quotient(scale(f, grown), w, time) for f in (dx, dy))
     # A body without interior: towards the side from which the vertex came; to the right if it
     # came along the line.
-    out = outward or -time.sign_before(orientation(a, b, v)) or 1
+    out = outward or -time.sign_before(orientation_polynomial(a, b, v)) or 1
     length = math.hypot(x, y)
     return (out * y / length + 0.0, -out * x / length + 0.0)

@@ -23,8 +23,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_rigid
+from exactpt.pairs.candidate_pairs import Spans, candidate_pairs
 from exactpt.pairs.features import feature_pairs
-from exactpt.pairs.near import Spans, pairs_that_come_near
 from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.overlap import bodies_meet
 from exactpt.pairs.selection import Selection
@@ -76,7 +76,7 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
     """
     two_bodies(scene, a, b)
     bodies = [body for body in scene.bodies if body.name in (a, b)]
-    near = pairs_that_come_near(scene_of(bodies, scene._start, scene._end), QQ(0))
+    near = candidate_pairs(scene_of(bodies, scene._start, scene._end), QQ(0))
     return _of_two(scene, bodies[0], bodies[1], near.get((0, 1), []))
 
 
@@ -109,7 +109,7 @@ def contacts(
     """
     a_scene(scene)
     selection = Selection(scene, between, ignoring)
-    near = pairs_that_come_near(scene, QQ(0))
+    near = candidate_pairs(scene, QQ(0))
     found = [
         interval
         for i, j in selection.of(near)

@@ -25,7 +25,7 @@ SLABS: Final = 64
 """Number of slabs of time, of equal length."""
 
 
-class Stretch(NamedTuple):
+class ActiveInterval(NamedTuple):
     """A time during which a body is near some obstacles, by number; before, it is near none."""
 
     start: QQ
@@ -70,7 +70,7 @@ class SlabBoxes:
             boxes[during, 1::2] = np.maximum(boxes[during, 1::2], places[..., 1::2].max(axis=1))
         return boxes
 
-    def stretches(self, body: Body) -> Iterator[Stretch]:
+    def stretches(self, body: Body) -> Iterator[ActiveInterval]:
         """Yield the times during which the box of a body intersects prepared boxes, in order."""
         box = self._of(body)[:, None, :]
         others = self._boxes
@@ -81,7 +81,7 @@ class SlabBoxes:
             if near:
                 numbers = [k for k, _ in run]
                 obstacles = np.nonzero(meets[numbers].max(axis=0))[0].tolist()
-                yield Stretch(self._cuts[numbers[0]], self._cuts[numbers[-1] + 1], obstacles)
+                yield ActiveInterval(self._cuts[numbers[0]], self._cuts[numbers[-1] + 1], obstacles)
 
 
 @final
@@ -120,7 +120,7 @@ class Obstacles:
         meet = meet[np.argsort(enter[meet], kind="stable")]
         return list(zip(enter[meet].tolist(), i[meet].tolist(), j[meet].tolist(), strict=True))
 
-    def stretches(self, body: Body) -> Iterator[Stretch]:
+    def stretches(self, body: Body) -> Iterator[ActiveInterval]:
         """Return the times during which a body is near obstacles, in order."""
         scene = self._scene
         if not scene.bodies:

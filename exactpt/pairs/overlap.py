@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from exactpt.geometry.polygon import contains
-from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
@@ -88,8 +88,8 @@ def _chains_cross(p: Sequence[Point], q: Sequence[Point]) -> bool:
 
 def _is_left(before: Point, at: Point, after: Point, v: Point) -> bool:
     """Return True if v, seen from the middle of a path of three points, is on its left."""
-    first, second = side(before, at, v) > 0, side(at, after, v) > 0
-    return first and second if side(before, at, after) > 0 else first or second
+    first, second = orientation(before, at, v) > 0, orientation(at, after, v) > 0
+    return first and second if orientation(before, at, after) > 0 else first or second
 
 
 def _enters(
@@ -104,7 +104,10 @@ def _enters(
 
 
 def _cross(e: Segment, f: Segment) -> bool:
-    return side(*e, f[0]) * side(*e, f[1]) < 0 and side(*f, e[0]) * side(*f, e[1]) < 0
+    return (
+        orientation(*e, f[0]) * orientation(*e, f[1]) < 0
+        and orientation(*f, e[0]) * orientation(*f, e[1]) < 0
+    )
 
 
 def _is_inside(point: Point, polygon: Sequence[Segment]) -> bool:
@@ -112,7 +115,7 @@ def _is_inside(point: Point, polygon: Sequence[Segment]) -> bool:
     corners = [end for edge in polygon for end in edge]
     pairs = [(i, i + 1) for i in range(0, len(corners), 2)]
     return contains(corners, point, pairs) and not any(
-        side(u, v, point) == 0 and between(u, v, point) for u, v in polygon
+        orientation(u, v, point) == 0 and between(u, v, point) for u, v in polygon
     )
 
 
@@ -129,7 +132,7 @@ def _cuts(edge: Segment, at: Sequence[Segment]) -> list[Point]:
     """Return the ends of an edge and the ends of other edges on it, sorted, each once."""
     u, v = edge
     ends = {p for other in at for p in other}
-    return sorted({u, v, *(p for p in ends if side(u, v, p) == 0 and between(u, v, p))})
+    return sorted({u, v, *(p for p in ends if orientation(u, v, p) == 0 and between(u, v, p))})
 
 
 def _inner_points(body: Body, points: Sequence[Point]) -> Iterator[Point]:

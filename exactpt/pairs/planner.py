@@ -13,7 +13,7 @@ from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pie
 from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.obstacles import Obstacles, Stretch
+from exactpt.pairs.obstacles import ActiveInterval, Obstacles
 from exactpt.pairs.pieces import MAX_VERTICES, ScenePieces, pieces_during
 from exactpt.pairs.search import LinearSearch
 from exactpt.scene.scene import Scene
@@ -96,11 +96,11 @@ class Planner:
                 few = ScenePieces(all_rows, scene._start, scene._end, near)
                 return LinearSearch(planned, few).run_to_contact()
         if scene.is_rounded or body._radius or not is_rigid(body):  # boxes are those of cores
-            whole = Stretch(scene._start, scene._end, list(range(len(scene.bodies))))
+            whole = ActiveInterval(scene._start, scene._end, list(range(len(scene.bodies))))
             return self._first_during(body, [whole])
         return self._first_during(body, self._obstacles.stretches(body))
 
-    def _first_during(self, body: Body, stretches: Iterable[Stretch]) -> Contact | None:
+    def _first_during(self, body: Body, stretches: Iterable[ActiveInterval]) -> Contact | None:
         """Return the first contact of a body with obstacles, searched while these are near."""
         scene = self._scene
         for stretch in stretches:

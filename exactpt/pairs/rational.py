@@ -34,7 +34,7 @@ def span_of(start: QQ, end: QQ) -> Span:
     return Span(start, end, *enclosing_floats(start), enclosing_floats(end)[1])
 
 
-class Meeting(NamedTuple):
+class LinearContact(NamedTuple):
     """The first contact of some bodies: its time and all incidences at that time.
 
     Of two bodies by themselves, the first has the number 0, the second 1.
@@ -103,7 +103,7 @@ def earliest(
     candidates: Iterable[Candidate],
     first: Callable[[Touch, QQ], tuple[QQ | AlgebraicNumber, Touch] | None],
     end: QQ,
-) -> Meeting | None:
+) -> LinearContact | None:
     """Return the earliest time at which a candidate begins, with all incidences at that time.
 
     Args:
@@ -121,7 +121,7 @@ def earliest(
         begins = first(candidate.touch, best.until(end))
         if begins is not None:
             best.add(begins[0], begins[1:])
-    return None if best.time is None else Meeting(best.time, best.found)
+    return None if best.time is None else LinearContact(best.time, best.found)
 
 
 def algebraic(time: QQ | AlgebraicNumber) -> AlgebraicNumber:
@@ -145,7 +145,7 @@ def double_above(time: QQ | AlgebraicNumber) -> float:
 
 def first_incidence(
     a: Straight, b: Straight, span: Span, candidates: Sequence[Candidate]
-) -> Meeting | None:
+) -> LinearContact | None:
     """Return the first contact of two bodies in (start, end], exactly, from its candidates."""
     ax, ay, avx, avy = a.line()
     bx, by, bvx, bvy = b.line()
@@ -154,7 +154,11 @@ def first_incidence(
 
     def first(touch: Touch, until: QQ) -> tuple[QQ, Touch] | None:
         one, vertex, _, edge, _ = touch
-        met = _meeting(b, a, back, vertex, edge) if one else _meeting(a, b, path, vertex, edge)
+        met = (
+            _linear_contact(b, a, back, vertex, edge)
+            if one
+            else _linear_contact(a, b, path, vertex, edge)
+        )
         if met is None or not span.start < met[0] <= until:
             return None
         time, end = met
@@ -163,7 +167,7 @@ def first_incidence(
     return earliest(candidates, first, span.end)
 
 
-def _meeting(
+def _linear_contact(
     a: Straight, b: Straight, path: tuple[QQ, QQ, QQ, QQ], vertex: int, edge: int
 ) -> tuple[QQ, int] | None:
     """Return when a vertex of a, moving relative to b, first lies on an edge of b: exactly.

@@ -27,8 +27,8 @@ from exactpt.pairs.pieces import (
     contact_distance,
     linear_pieces,
 )
-from exactpt.pairs.rational import Earliest, Meeting, Span, span_of
-from exactpt.pairs.two_pieces import first_meeting
+from exactpt.pairs.rational import Earliest, LinearContact, Span, span_of
+from exactpt.pairs.two_pieces import first_linear_contact
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class LinearSearch:
     """
 
     name = None
-    is_blind = False
+    lacks_boxes = False
 
     def __init__(
         self,
@@ -155,7 +155,7 @@ def first_among_pieces(
     end: QQ,
     distance: Distance = contact_distance,
     margin: float = 0.0,
-) -> Meeting | None:
+) -> LinearContact | None:
     """Return the first contact in (start, end] of bodies that are disjoint at the start.
 
     Args:
@@ -195,7 +195,7 @@ class _Search:
         best = self.best.number
         return min(self._enter, math.inf if best is None else best.enclosure()[0])
 
-    def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> Meeting | None:
+    def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> LinearContact | None:
         """Compare pairs of pieces in the order of the times before which they do not touch."""
         for enter, a, b in pairs:
             check_budget()
@@ -206,7 +206,7 @@ class _Search:
             self._enter = enter
             self.compare(a, b)
         best = self.best.time
-        return None if best is None else Meeting(best, self.best.found)
+        return None if best is None else LinearContact(best, self.best.found)
 
     def compare(self, a: MotionPiece, b: MotionPiece) -> None:
         """Compare two pieces."""
@@ -218,6 +218,8 @@ class _Search:
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
         distance = self._distance(a, b)
-        met = first_meeting(a.straight, b.straight, span, self.best.high, distance, self.counters)
+        met = first_linear_contact(
+            a.straight, b.straight, span, self.best.high, distance, self.counters
+        )
         if met is not None:
             self.best.add(met.time, renumbered(met.touches, a.body, b.body))

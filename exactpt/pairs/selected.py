@@ -18,9 +18,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.outline import is_rigid
+from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.renewed import new_contact_time
@@ -128,7 +128,7 @@ class SelectedSearch:
         named = self._selection.named
         if named is not None:
             return named
-        return self._selection.of(pairs_that_come_near(self._scene, QQ(0)))
+        return self._selection.of(candidate_pairs(self._scene, QQ(0)))
 
     def _self_touching(self) -> list[int]:
         """Return the bodies that may touch themselves."""

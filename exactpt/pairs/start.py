@@ -13,7 +13,7 @@ from exactpt.certificates.positions import positions_at
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import near_groups, segments_meet
-from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
@@ -234,5 +234,5 @@ def incidences(e: Edge, f: Edge) -> Iterator[Touch]:
         for w in meeting:
             if e.body < f.body:  # report each vertex-vertex incidence once
                 yield Touch(e.body, v, f.body, -1, w)
-        if not meeting and side(f.a, f.b, p) == 0 and between(f.a, f.b, p):
+        if not meeting and orientation(f.a, f.b, p) == 0 and between(f.a, f.b, p):
             yield Touch(e.body, v, f.body, f.number, -1)

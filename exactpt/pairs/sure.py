@@ -38,7 +38,7 @@ from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 from exactpt.geometry.polygon import segments_meet
-from exactpt.geometry.predicates import Point, side
+from exactpt.geometry.predicates import Point, orientation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
@@ -94,7 +94,7 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
         v, a, b = point._at(t)[0], other._at(t)[ends[0]], other._at(t)[ends[1]]
         if _squared(v, (a, b)) < margin * margin:
             return False
-        sides.append(side(a, b, v))
+        sides.append(orientation(a, b, v))
     if sides[0] * sides[1] >= 0:
         return False
     for stretch in stretches(point, other, begin, end):

@@ -11,6 +11,7 @@ from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, shorten
 from exactpt.pairs.approach import root_above
 from exactpt.pairs.approach import time_within_of_two as time_within
+from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.clearance import (
     Clearance,
     CloseInterval,
@@ -19,7 +20,6 @@ from exactpt.pairs.clearance import (
     clearance_of_two,
 )
 from exactpt.pairs.distance import Distance, distance
-from exactpt.pairs.near import pairs_that_come_near
 from exactpt.scene.scene import Scene, a_scene
 
 
@@ -136,7 +136,7 @@ class Surroundings:
     def _near(self, reach: QQ) -> list[str]:
         """Return the names of the other bodies that may come within a distance."""
         bodies = self._scene.bodies
-        pairs = pairs_that_come_near(self._scene, reach)
+        pairs = candidate_pairs(self._scene, reach)
         names = [(bodies[i].name, bodies[j].name) for i, j in pairs]
         return [b if a == self.name else a for a, b in names if self.name in (a, b)]
 

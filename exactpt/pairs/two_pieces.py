@@ -13,7 +13,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 from exactpt.pairs.filters import candidates_of
-from exactpt.pairs.rational import Candidate, Meeting, Span, earliest, first_incidence
+from exactpt.pairs.rational import Candidate, LinearContact, Span, earliest, first_incidence
 
 
 class ContactDistance(NamedTuple):
@@ -33,14 +33,14 @@ class ContactDistance(NamedTuple):
         return cls(squared, nearest_float(root) or math.ulp(0.0))
 
 
-def first_meeting(
+def first_linear_contact(
     a: Straight,
     b: Straight,
     span: Span,
     before: float = math.inf,
     distance: ContactDistance | None = None,
     counters: Counters | None = None,
-) -> Meeting | None:
+) -> LinearContact | None:
     """Return the first contact of two bodies in (start, end]; None if there is none.
 
     Args:
@@ -69,7 +69,7 @@ def first_at_distance(
     end: QQ,
     candidates: Iterable[Candidate],
     squared: QQ,
-) -> Meeting | None:
+) -> LinearContact | None:
     """Return the first time in (start, end] at which candidates are at a distance, exactly.
 
     Args:

@@ -29,7 +29,7 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, lies_on, orientation
+from exactpt.motion.incidence import difference, lies_on, orientation_polynomial
 from exactpt.motion.track import Track
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.rational import Earliest
@@ -151,7 +151,7 @@ def _in_both(
     )
     for (v, (u, w)), corner in product(pairs, corners):
         moved = _moved(v, corner)
-        yield orientation(u, w, moved), _on_edge(moved, u, w)
+        yield orientation_polynomial(u, w, moved), _on_edge(moved, u, w)
     for u, v in product(p, q):
         for side in (d, -d):
             yield _offset(u, v, side, "x"), _at_most(u, v, d, "y")

@@ -18,7 +18,7 @@ from exactpt.kernel.integer_polynomial import (
 )
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.incidence import difference, orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
@@ -74,7 +74,9 @@ class Nodes:
 
     def orientation(self, a: int, b: int, c: int, after: QQ) -> IntPoly:
         """Return the orientation of three vertices after a rational time; () if always 0."""
-        return orientation(self.track(a, after), self.track(b, after), self.track(c, after))
+        return orientation_polynomial(
+            self.track(a, after), self.track(b, after), self.track(c, after)
+        )
 
     def vanishing(self, name: tuple[int, ...], after: QQ) -> IntPoly:
         """Return the orientation of three vertices, or the difference of the abscissas of two."""
@@ -153,7 +155,7 @@ def _product(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:
 
 
 def _area(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:
-    return orientation(a, v, b), multiply(multiply(a.w, v.w), b.w)
+    return orientation_polynomial(a, v, b), multiply(multiply(a.w, v.w), b.w)
 
 
 def _is_constant(quotient: tuple[IntPoly, IntPoly], t: QQ) -> bool:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, final
 from exactpt.indices import NO_VERTEX, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.incidence import orientation
+from exactpt.motion.incidence import orientation_polynomial
 from exactpt.proof.contraction import Contraction, Cycle, Face
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Mesh
 
@@ -146,7 +146,7 @@ class Watch:
         if corners not in self._flat:
             nodes, bodies = self._nodes, self.kinetic.vertices.bodies
             tracks = [nodes.track(v, bodies[nodes.body_of[v]].since) for v in corners]
-            self._flat[corners] = not orientation(*tracks)
+            self._flat[corners] = not orientation_polynomial(*tracks)
         return self._flat[corners]
 
     def _later(self) -> Callable[[int], tuple[QQ, QQ]]:

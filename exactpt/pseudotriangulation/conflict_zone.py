@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.geometry.polygon import contains, segments_meet
-from exactpt.geometry.predicates import Point, side
+from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
@@ -151,7 +151,7 @@ class _Search:
         for h in face:
             a, b = self._ends(h)
             if (a[1] > p[1]) != (b[1] > p[1]):
-                s = side(a, b, p)
+                s = orientation(a, b, p)
                 if b[1] > a[1]:
                     turns += s > 0
                 else:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, fraction, parse_rational
 from exactpt.planar.halfedge import edge_key
@@ -237,7 +237,7 @@ class _Contraction:
     def _has_area(self, corners: Sequence[int]) -> bool:
         """Return True if a face with these corners has an area."""
         a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
-        return side(a, b, c) != 0
+        return orientation(a, b, c) != 0
 
     def _cut_along(self, nodes: Sequence[int]) -> None:
         """Split the edges of a face without area at its vertices in their interiors."""

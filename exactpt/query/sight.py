@@ -18,7 +18,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
-from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.query.sleeve import Sleeves, Triangle
 from exactpt.query.subdivision import OUTSIDE, Subdivision
@@ -90,7 +90,7 @@ class FreeTriangles:
         node = VertexId(len(self.points))
         self.points.append(p)
         edges = ((a, b), (b, c), (c, a))
-        on = [(u, v) for u, v in edges if side(self.points[u], self.points[v], p) == 0]
+        on = [(u, v) for u, v in edges if orientation(self.points[u], self.points[v], p) == 0]
         if on:
             self._split(*on[0], node)
         else:
@@ -103,7 +103,11 @@ class FreeTriangles:
         for a, b, c in triangles:
             if self._apex.get((a, b)) == c:
                 x, y, z = (self.points[v] for v in (a, b, c))
-                if side(x, y, p) >= 0 and side(y, z, p) >= 0 and side(z, x, p) >= 0:
+                if (
+                    orientation(x, y, p) >= 0
+                    and orientation(y, z, p) >= 0
+                    and orientation(z, x, p) >= 0
+                ):
                     return a, b, c
         raise AuditError(f"no triangle has the point {p}")
 
@@ -165,17 +169,20 @@ class FreeTriangles:
         ends = [self.points[v] for v in self.walls(corner)]
         if not ends:
             return True
-        return side(here, *ends) <= 0 and side(p, here, ends[0]) * side(p, here, ends[1]) >= 0
+        return (
+            orientation(here, *ends) <= 0
+            and orientation(p, here, ends[0]) * orientation(p, here, ends[1]) >= 0
+        )
 
     def is_taut(self, before: VertexId, corner: Corner, after: VertexId) -> bool:
         """Return True if a path is straight at a corner, or bends around its walls."""
         p, here, q = (self.points[v] for v in (before, corner[0], after))
-        turn = side(p, here, q)
+        turn = orientation(p, here, q)
         if turn == 0:
             return between(p, q, here)
         walls = self.walls(corner)
         return bool(walls) and all(
-            side(here, p, w) * turn <= 0 <= side(here, q, w) * turn
+            orientation(here, p, w) * turn <= 0 <= orientation(here, q, w) * turn
             for w in (self.points[v] for v in walls)
         )
 
@@ -196,8 +203,8 @@ class FreeTriangles:
                 crossed += (u, v) in self._diagonals
                 w = self._apex[v, u]
                 p = self.points[w]
-                after_right = side(eye, self.points[right], p) > 0
-                before_left = side(eye, self.points[left], p) < 0
+                after_right = orientation(eye, self.points[right], p) > 0
+                before_left = orientation(eye, self.points[left], p) < 0
                 if after_right and before_left:
                     yield Seen(self._corner(w, v), crossed)
                 if after_right:

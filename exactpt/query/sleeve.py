@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from typing import Final, TypeAlias, final
 
 from exactpt.errors import AuditError
-from exactpt.geometry.predicates import Point, between, side
+from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Index, Triple, VertexId
 from exactpt.query.subdivision import Subdivision
 
@@ -91,7 +91,11 @@ class Sleeves:
         points = self._plane.points
         for i, (a, b, c) in enumerate(self.triangles(tile)):
             x, y, z = points[a], points[b], points[c]
-            if side(x, y, p) >= 0 and side(y, z, p) >= 0 and side(z, x, p) >= 0:
+            if (
+                orientation(x, y, p) >= 0
+                and orientation(y, z, p) >= 0
+                and orientation(z, x, p) >= 0
+            ):
                 return i
         raise AuditError(f"no triangle of tile {tile} has the point {p}")
 
@@ -151,10 +155,12 @@ def triangulated(cycle: Sequence[Index], points: list[Point]) -> list[tuple[Inde
 
 def _is_ear(nodes: Sequence[Index], a: Index, b: Index, c: Index, points: list[Point]) -> bool:
     p, q, r = points[a], points[b], points[c]
-    if side(p, q, r) <= 0:
+    if orientation(p, q, r) <= 0:
         return False
     return not any(
-        side(r, p, points[v]) >= 0 and side(p, q, points[v]) >= 0 and side(q, r, points[v]) >= 0
+        orientation(r, p, points[v]) >= 0
+        and orientation(p, q, points[v]) >= 0
+        and orientation(q, r, points[v]) >= 0
         for v in nodes
         if v not in (a, b, c)
     )
@@ -175,7 +181,7 @@ def pull_tight(
     i = 0
     while i < len(ends):
         l, r = ends[i]
-        if apex == right or side(apex, right, r) >= 0:
+        if apex == right or orientation(apex, right, r) >= 0:
             if apex in (right, left) or _opens(apex, left, r) or _stops_short(apex, left, r):
                 right, right_at = r, i
             else:  # the right end has crossed the left side of the funnel: a bend
@@ -183,7 +189,7 @@ def pull_tight(
                 apex = right = left
                 i, right_at = left_at + 1, left_at
                 continue
-        if apex == left or side(apex, left, l) <= 0:
+        if apex == left or orientation(apex, left, l) <= 0:
             if apex in (left, right) or _opens(apex, l, right) or _stops_short(apex, right, l):
                 left, left_at = l, i
             else:
@@ -201,7 +207,7 @@ def _opens(apex: Point, left: Point, right: Point) -> bool:
 
     Opposite directions count as well: the apex is then on the portal.
     """
-    turn = side(apex, left, right)
+    turn = orientation(apex, left, right)
     return turn < 0 or (turn == 0 and between(left, right, apex))
 
 
@@ -210,7 +216,7 @@ def _stops_short(apex: Point, end: Point, near: Point) -> bool:
 
     The funnel has no width there, but a path to that point does not bend at the end.
     """
-    return near != end and side(apex, end, near) == 0 and between(apex, end, near)
+    return near != end and orientation(apex, end, near) == 0 and between(apex, end, near)
 
 
 def bends(path: Sequence[tuple[Point, VertexId]]) -> list[VertexId]:
@@ -226,4 +232,4 @@ def bends(path: Sequence[tuple[Point, VertexId]]) -> list[VertexId]:
 
 
 def _is_straight(a: Point, b: Point, c: Point) -> bool:
-    return side(a, b, c) == 0 and between(a, c, b)
+    return orientation(a, b, c) == 0 and between(a, c, b)

@@ -9,7 +9,7 @@ from exactpt.collision.driver import TiledScene
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
-from exactpt.motion.body import Body, refuse_rounded
+from exactpt.motion.body import Body, refuse_radii
 from exactpt.motion.motions import Motion
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
@@ -147,7 +147,7 @@ class MutableScene(TiledScene):
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        refuse_rounded([body])
+        refuse_radii([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
         bodies = [*self._bodies, body]
         rings = any(body.has_rings for body in bodies)

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Final, NoReturn, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -275,7 +275,7 @@ def _is_convex(body: Moving) -> bool:
     """Return True if a simple polygon turns strictly one way at every vertex."""
     points = [(rational(x), rational(y)) for x, y in body.vertices]
     corners = zip(points[-2:] + points[:-2], points[-1:] + points[:-1], points, strict=True)
-    return {side(*corner) for corner in corners} in ({1}, {-1})
+    return {orientation(*corner) for corner in corners} in ({1}, {-1})
 
 
 def _moving(body: Body) -> Moving:

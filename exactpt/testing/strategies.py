@@ -17,7 +17,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import rational
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.families.shapes import hull
@@ -143,7 +143,7 @@ def _monotone(points: Outline) -> Outline:
     """
     ordered = sorted(points)
     exact = [(rational(x), rational(y)) for x, y in ordered]
-    sides = [side(exact[0], exact[-1], p) for p in exact]
+    sides = [orientation(exact[0], exact[-1], p) for p in exact]
     below = [p for p, s in zip(ordered, sides, strict=True) if s <= 0]
     above = [p for p, s in zip(ordered, sides, strict=True) if s > 0]
     return below + above[::-1] if any(sides) else []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from exactpt.certificates.certifier import X_ORDER
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import shorten
@@ -76,7 +76,7 @@ def _may_bend(moving: MovingBody) -> bool:
     if moving.is_tiled or body.has_rings or body.size < 3 or not body.closed:
         return moving.is_tiled or body.size > 2
     points = body._at(moving.since)
-    sides = (side(points[i - 2], points[i - 1], p) for i, p in enumerate(points))
+    sides = (orientation(points[i - 2], points[i - 1], p) for i, p in enumerate(points))
     return {1, -1}.issubset(sides)
 
 

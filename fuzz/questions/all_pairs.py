@@ -17,7 +17,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation
+from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation_polynomial
 from exactpt.motion.track import Track
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.incidences import tracks_just_before
@@ -108,7 +108,7 @@ def _meetings(
 
     If the three are collinear for all times, v enters the segment at one of its ends.
     """
-    f = orientation(a, b, v)
+    f = orientation_polynomial(a, b, v)
     if f:
         for root in roots_after(f, start, until):
             if lies_on(v, a, b, root.time):

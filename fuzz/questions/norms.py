@@ -14,7 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, scale
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import orientation
+from exactpt.motion.incidence import orientation_polynomial
 from exactpt.motion.track import Track
 from fuzz.questions.reference import (
     Tracks,
@@ -50,9 +50,9 @@ def _polynomials(a: Body, b: Body, p: Tracks, q: Tracks, d: QQ) -> list[IntPoly]
     """They vanish where a corner of a square has the x or y of a vertex, or is on an edge."""
     found = [f for u, v in product(p, q) for w in _square(v, d) for f in gap(u, w)]
     for v, (i, j) in product(p, edges_of(b)):
-        found += [orientation(q[i], q[j], w) for w in _square(v, d)]
+        found += [orientation_polynomial(q[i], q[j], w) for w in _square(v, d)]
     for v, (i, j) in product(q, edges_of(a)):
-        found += [orientation(p[i], p[j], w) for w in _square(v, d)]
+        found += [orientation_polynomial(p[i], p[j], w) for w in _square(v, d)]
     return found
 
 

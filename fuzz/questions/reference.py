@@ -15,7 +15,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, sub
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.incidence import difference, orientation_polynomial
 from exactpt.motion.track import Track
 
 __all__ = [
@@ -72,12 +72,14 @@ def within_box(t: Instant, a: Track, b: Track, v: Track) -> bool:
 
 def on_segment(t: Instant, a: Track, b: Track, v: Track) -> bool:
     """Whether v is on the closed segment ab."""
-    return t.sign_of(orientation(a, b, v)) == 0 and within_box(t, a, b, v)
+    return t.sign_of(orientation_polynomial(a, b, v)) == 0 and within_box(t, a, b, v)
 
 
 def segments_meet(t: Instant, a: Track, b: Track, c: Track, d: Track) -> bool:
     """Whether the closed segments ab and cd share a point."""
-    signs = [t.sign_of(orientation(*o)) for o in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
+    signs = [
+        t.sign_of(orientation_polynomial(*o)) for o in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))
+    ]
     if signs[0] * signs[1] < 0 and signs[2] * signs[3] < 0:
         return True
     return (
@@ -99,7 +101,7 @@ def contains(t: Instant, body: Body, p: Tracks, v: Track) -> bool:
     for a, b in ((p[i], p[j]) for i, j in body.edges):
         above = [t.sign_of(difference(v.y, v.w, p.y, p.w)) > 0 for p in (a, b)]
         if above[0] != above[1]:
-            left = t.sign_of(orientation(a, b, v)) > 0
+            left = t.sign_of(orientation_polynomial(a, b, v)) > 0
             inside ^= left == above[1]
     return inside
 
@@ -118,7 +120,7 @@ def meet_at(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
 
 def moments(begin: QQ, until: QQ, p: Tracks, q: Tracks) -> list[AlgebraicNumber]:
     """All times in (begin, until] at which anything about two bodies may change, in order."""
-    orientations = [orientation(*triple) for triple in combinations([*p, *q], 3)]
+    orientations = [orientation_polynomial(*triple) for triple in combinations([*p, *q], 3)]
     gaps = [f for u, v in product(p, q) for f in gap(u, v)]
     return critical_times(orientations + gaps, begin, until)
 
@@ -139,7 +141,7 @@ def intervals_within(a: Body, b: Body, start: QQ, end: QQ, s: QQ) -> list[Interv
         return is_within(t, a, b, p, q, s)
 
     def critical(begin: QQ, until: QQ, p: Tracks, q: Tracks) -> list[AlgebraicNumber]:
-        found = [orientation(*three) for three in combinations([*p, *q], 3)]
+        found = [orientation_polynomial(*three) for three in combinations([*p, *q], 3)]
         for v, c, d in _corners(a, b, p, q):
             found += dot(gap(c, d), gap(c, v)), dot(gap(d, c), gap(d, v))
         return critical_times([*found, *_excesses(a, b, p, q, s)], begin, until)

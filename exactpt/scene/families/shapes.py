@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from random import Random
 
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import Point, side
+from exactpt.geometry.predicates import Point, orientation
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
@@ -37,7 +37,7 @@ def hull(points: Sequence[Point]) -> list[Point]:
     for sequence in (ordered, ordered[::-1]):
         chain: list[Point] = []
         for p in sequence:
-            while len(chain) > 1 and side(chain[-2], chain[-1], p) <= 0:
+            while len(chain) > 1 and orientation(chain[-2], chain[-1], p) <= 0:
                 chain.pop()
             chain.append(p)
         halves += chain[:-1]

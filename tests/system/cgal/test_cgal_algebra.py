@@ -9,7 +9,7 @@ import sympy
 
 from exactpt.cgal import IsolatedRoot, Signs
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import multiply, trimmed
 from exactpt.kernel.numbers import QQ, ZZ
@@ -231,7 +231,7 @@ def test_orientations_of_points_that_are_nearly_collinear(witness):
         expected.append(off)
 
     assert witness.orientations(triples) == expected
-    assert [side(*triple) for triple in triples] == expected
+    assert [orientation(*triple) for triple in triples] == expected
 
 
 def test_hull_of_points_with_a_planted_hull(witness):

@@ -17,7 +17,7 @@ from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.incidence import difference, orientation_polynomial
 from exactpt.motion.normalization import frame_for
 from exactpt.motion.track import track
 from fuzz.filter_attacks import asked, judge
@@ -88,7 +88,7 @@ def attack(seed, cases):
         enclosures = Enclosures(frame)
         images, errors = enclosures.images(tracks), enclosures.errors
         if rng.random() < 0.7:
-            function, ask = orientation(*tracks), coefficients.orientation
+            function, ask = orientation_polynomial(*tracks), coefficients.orientation
         else:
             a, b = tracks[:2]
             function, ask = difference(a.x, a.w, b.x, b.w), coefficients.x_difference

@@ -20,7 +20,7 @@ from exactpt import (
 )
 from exactpt.cli import main
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import near
+from exactpt.pairs import candidate_pairs
 from exactpt.scene.generate import generate
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.tiny import pair_scene, touching_scene
@@ -203,7 +203,7 @@ def compare(scene, between=None, **options):
 def test_tiny_scenes_against_the_definition(draw, count, monkeypatch):
     random, seen = Random(f"new {count}"), set()
     for k in range(count):
-        monkeypatch.setattr(near, "FEW", 4 * (k % 2))
+        monkeypatch.setattr(candidate_pairs, "FEW", 4 * (k % 2))
         scene = draw(random)
         between = [(0, 1)] if k % 5 == 0 else None
         seen.add(compare(scene, between, exact_only=k % 3 == 0))

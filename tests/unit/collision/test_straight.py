@@ -264,7 +264,7 @@ def test_an_irrational_time_has_its_polynomial_whenever_it_is_asked():
 def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
     """20 bodies of 100 pieces that keep away from each other: hardly two rows are compared."""
     compared = []
-    monkeypatch.setattr(straight_search, "first_meeting", lambda *_: compared.append(1))
+    monkeypatch.setattr(straight_search, "first_linear_contact", lambda *_: compared.append(1))
     rng = Random(5)
     bodies = []
     for i in range(20):
@@ -283,13 +283,13 @@ def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
 
 def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
     compared = []
-    first_meeting = straight_search.first_meeting
+    first_linear_contact = straight_search.first_linear_contact
 
     def recorded(a, b, span, before=math.inf, *distance):
         compared.append((a, b))
-        return first_meeting(a, b, span, before, *distance)
+        return first_linear_contact(a, b, span, before, *distance)
 
-    monkeypatch.setattr(straight_search, "first_meeting", recorded)
+    monkeypatch.setattr(straight_search, "first_linear_contact", recorded)
     bodies = []
     for i in range(40):
         bodies += [

@@ -12,7 +12,7 @@ from strategies import as_rational, fractions, wide_fractions
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, is_counter_clockwise, signed_area2
-from exactpt.geometry.predicates import between, orient2d, side
+from exactpt.geometry.predicates import between, orient2d, orientation
 from exactpt.kernel.numbers import QQ, rational
 
 SIMPLE = (
@@ -86,10 +86,10 @@ def test_a_polygon_contains_what_a_ray_across_all_edges_finds_in_it():
     edges = list(zip(ring, [*ring[1:], ring[0]], strict=True))
     found = 0
     for p in product(map(rational, range(-1, 10)), repeat=2):
-        inside = any(side(a, b, p) == 0 and between(a, b, p) for a, b in edges)
+        inside = any(orientation(a, b, p) == 0 and between(a, b, p) for a, b in edges)
         crossed = [
             1 for a, b in edges if (a[1] > p[1]) != (b[1] > p[1])
-            and (side(a, b, p) > 0) == (b[1] > a[1])
+            and (orientation(a, b, p) > 0) == (b[1] > a[1])
         ]  # fmt: skip
         assert contains(ring, p) == contains(ring[::-1], p) == (inside or len(crossed) % 2 == 1)
         found += contains(ring, p)
@@ -104,7 +104,11 @@ def test_the_unit_triangle_turns_left():
     corners = [(QQ(0), QQ(0)), (QQ(1), QQ(0)), (QQ(0), QQ(1))]
 
     assert orient2d(*corners) == 1
-    assert (side(*corners), side(*corners[::-1]), side(corners[0], *corners[:2])) == (1, -1, 0)
+    assert (
+        orientation(*corners),
+        orientation(*corners[::-1]),
+        orientation(corners[0], *corners[:2]),
+    ) == (1, -1, 0)
 
 
 @given(points, points, points)
@@ -112,14 +116,14 @@ def test_the_orientation_is_twice_the_area_by_the_shoelace_formula(a, b, c):
     shoelace = sum(p[0] * q[1] - q[0] * p[1] for p, q in ((a, b), (b, c), (c, a)))
 
     assert orient2d(a, b, c) == shoelace
-    assert side(a, b, c) == (shoelace > 0) - (shoelace < 0)
+    assert orientation(a, b, c) == (shoelace > 0) - (shoelace < 0)
 
 
 @given(points, points, st.one_of(fractions, wide_fractions).map(as_rational))
 def test_on_the_line_through_two_points_only_the_segment_is_between(a, b, k):
     c = tuple(u + k * (v - u) for u, v in zip(a, b, strict=True))
 
-    assert side(a, b, c) == 0
+    assert orientation(a, b, c) == 0
     assert between(a, b, c) == (0 <= k <= 1 or a == b)
 
 

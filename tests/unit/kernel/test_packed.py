@@ -10,7 +10,7 @@ from exactpt.kernel.integer_polynomial import add, multiply, negate, subtract, t
 from exactpt.kernel.numbers import ZZ
 from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import orientation
+from exactpt.motion.incidence import orientation_polynomial
 from exactpt.motion.track import Track
 from exactpt.motion.vertex import MovingBody, Vertex
 
@@ -49,7 +49,7 @@ def test_determinants_of_tracks(a, b, c, d):
             multiply(b.x, difference(a.y, a.w, c.y, c.w))),
         multiply(c.x, difference(b.y, b.w, a.y, a.w)),
     )  # fmt: skip
-    assert orientation(a, b, c) == expected
+    assert orientation_polynomial(a, b, c) == expected
     assert cross(a, b, c, d) == cross_of(towards(a, b), towards(c, d))
 
 
@@ -87,7 +87,7 @@ def test_the_largest_coefficients_of_either_sign_fit(bits, length):
         for i, j, k in ((p, q, r), (q, r, p), (r, p, q)):
             minor = subtract(multiply(j.y, k.w), multiply(k.y, j.w))
             total = add(total, multiply(i.x, minor))
-        assert orientation(p, q, r) == total
+        assert orientation_polynomial(p, q, r) == total
         for s in (a, b, c):
             assert cross(p, q, r, s) == cross_of(towards(p, q), towards(r, s))
 

@@ -10,7 +10,7 @@ from strategies import algebraics, as_int_poly, as_rational, fractions, trim
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import coincide, lies_on, orientation
+from exactpt.motion.incidence import coincide, lies_on, orientation_polynomial
 from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.track import Track
 
@@ -42,16 +42,16 @@ def turn(p, q, r):
 
 @given(a=tracks(), b=tracks(), c=tracks(), t=fractions)
 def test_the_orientation_at_an_instant_has_the_sign_of_the_turn(a, b, c, t):
-    f = orientation(a, b, c)
+    f = orientation_polynomial(a, b, c)
 
     assert sign_at(f, as_rational(t)) == turn(at(a, t), at(b, t), at(c, t))
 
 
 @given(a=tracks(), b=tracks(), c=tracks())
 def test_orientation_is_alternating(a, b, c):
-    assert orientation(a, b, c) == orientation(b, c, a)
-    assert orientation(a, b, c) == tuple(-q for q in orientation(b, a, c))
-    assert orientation(a, a, c) == ()
+    assert orientation_polynomial(a, b, c) == orientation_polynomial(b, c, a)
+    assert orientation_polynomial(a, b, c) == tuple(-q for q in orientation_polynomial(b, a, c))
+    assert orientation_polynomial(a, a, c) == ()
 
 
 @given(a=tracks(), b=tracks(), v=tracks(), t=fractions)

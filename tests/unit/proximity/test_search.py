@@ -10,7 +10,7 @@ import pytest
 from benchmarks.shapes import crowd
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import near, pieces
+from exactpt.pairs import candidate_pairs, pieces
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.start import near_at_start, within_at_start
@@ -22,8 +22,8 @@ from fuzz.questions.tiny import touching_scene
 def search(scene, d):
     """The time and the pairs of the first approach; None if there is none."""
     limit, reach = lambda i, j: d * d, [d / 2] * len(scene.bodies)  # noqa: ARG005
-    near = near_at_start(scene, reach, np.not_equal)
-    if at_start := tuple(ij for ij, _ in within_at_start(scene, limit, near)):
+    candidate_pairs = near_at_start(scene, reach, np.not_equal)
+    if at_start := tuple(ij for ij, _ in within_at_start(scene, limit, candidate_pairs)):
         return scene.start, at_start
     return time_and_pairs(ApproachSearch(scene, limit, reach).run())
 
@@ -113,7 +113,7 @@ def test_pairs_that_are_passed_over_are_farther_apart(family, monkeypatch):
     if scene is not None:
         extent = max(abs(c) for body in scene.bodies for p in body.at(scene.start) for c in p)
         every = first_within(scene, distance=extent / 20, norm="max")
-        monkeypatch.setattr(near, "FEW", 0)
+        monkeypatch.setattr(candidate_pairs, "FEW", 0)
         assert first_within(scene, distance=extent / 20, norm="max") == every
 
 
@@ -248,12 +248,12 @@ def test_numbers_out_of_range_are_not_bisected(monkeypatch):
     assert len(decided) <= 4
     decided.clear()
 
-    near = []
+    candidate_pairs = []
     for i in range(8):
-        near.append(Body(f"post {i}", [(10 * i, 0)]))
+        candidate_pairs.append(Body(f"post {i}", [(10 * i, 0)]))
         turn = Rigid([0, 1], pivot=(10 * i, 0))
-        near.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
-    assert search(Scene(near, (0, 2)), QQ(2)) is None
+        candidate_pairs.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
+    assert search(Scene(candidate_pairs, (0, 2)), QQ(2)) is None
     assert len(decided) <= 300
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from exactpt import Body, Rigid, Scene, first_contact
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.scene.generate import EVERY
 from exactpt.testing import FAMILIES, Question, strategies
 
@@ -21,7 +21,7 @@ def test_convex_polygons_are_convex(outline):
     n = len(outline)
     Scene([Body("a", outline)])
     exact = Body("a", outline).at(0)
-    assert all(side(exact[i - 2], exact[i - 1], exact[i]) > 0 for i in range(n))
+    assert all(orientation(exact[i - 2], exact[i - 1], exact[i]) > 0 for i in range(n))
 
 
 @pytest.mark.long

@@ -6,7 +6,7 @@ import pytest
 
 from exactpt.cgal import BodyShape
 from exactpt.geometry.polygon import signed_area2
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.scene.families.shapes import hull
@@ -48,7 +48,7 @@ def assert_whole(scene, snapshot):
         assert len(face.corners) == 3
         cycle = [points[v] for v in face.nodes]
         turns = zip(face.nodes, [cycle[-1], *cycle], cycle, [*cycle[1:], cycle[0]], strict=False)
-        assert {v for v, a, p, b in turns if side(a, p, b) > 0} == set(face.corners)
+        assert {v for v, a, p, b in turns if orientation(a, p, b) > 0} == set(face.corners)
         area += signed_area2(cycle)
     for body in scene.bodies:
         if body.closed and body.size > 2:

@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from exactpt.certificates.certificate import ANGLE, pack
-from exactpt.certificates.perturbation import orientation
+from exactpt.certificates.perturbation import orientation_polynomial
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
@@ -42,7 +42,7 @@ def first_zero(kinetic, h):
 
 def zeros(vertices, now, until):
     a, p, b = vertices
-    f = orientation(a, p, b)
+    f = orientation_polynomial(a, p, b)
     if f:
         yield from roots_after(f, now, until)
     if not f or len({v.track for v in vertices}) < 3:
@@ -70,7 +70,7 @@ def check_angles(kinetic):
         if kinetic.mesh.region[h] != SOLID:
             expected, found = first_zero(kinetic, h), pending(kinetic, h)
             assert found == expected, [kinetic.vertices.name(v) for v in kinetic.certified.angle(h)]
-            f = orientation(*kinetic.certified.vertices_of(h))
+            f = orientation_polynomial(*kinetic.certified.vertices_of(h))
             if found is not None and f and found.sign_of(f) == 0:
                 even += found.sign_before(f) == found.sign_after(f)
     return even

@@ -7,7 +7,7 @@ import pytest
 from random_motions import lanes
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.geometry.predicates import side
+from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -98,7 +98,10 @@ def test_geodesics_do_not_depend_on_the_triangulation(family, count):
 
 
 def crosses(p, q, a, b):
-    return side(p, q, a) * side(p, q, b) < 0 and side(a, b, p) * side(a, b, q) < 0
+    return (
+        orientation(p, q, a) * orientation(p, q, b) < 0
+        and orientation(a, b, p) * orientation(a, b, q) < 0
+    )
 
 
 @pytest.mark.parametrize("count", COUNTS)

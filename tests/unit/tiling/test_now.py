@@ -32,7 +32,7 @@ from exactpt.certificates.coincidence import (
     strictly_between,
 )
 from exactpt.certificates.one_sided import OneSided
-from exactpt.certificates.perturbation import orientation
+from exactpt.certificates.perturbation import orientation_polynomial
 from exactpt.certificates.queue import EventTime
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
@@ -160,7 +160,7 @@ def test_signs_at_an_instant(moving, t, after):
     """At the time itself, or just after it; with the filter, without it, and exactly."""
     instants = [PredicatesAt(moving, t, after=after, exact_only=exact) for exact in (False, True)]
     for a, b, c in permutations(moving.all[:6], 3):
-        f = orientation(a, b, c)
+        f = orientation_polynomial(a, b, c)
         exactly = instants[0].first_sign((f,))
         assert [i.orientation(a.id, b.id, c.id) for i in instants] == [exactly] * 2
         if len({id(v.track) for v in (a, b, c)}) == 3 and not after:

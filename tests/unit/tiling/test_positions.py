@@ -13,7 +13,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation as orientation_of_tracks
+from exactpt.motion.incidence import orientation_polynomial as orientation_of_tracks
 from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.vertices import Vertices
 

@@ -26,7 +26,7 @@ Spans: TypeAlias = "list[tuple[QQ, QQ]]"
 """Disjoint closed spans of time, but for their ends, in order."""
 
 
-def pairs_that_come_near(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
+def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect, and when.
 
     A superset of those whose distance in the maximum norm is ever at most the reach, in order,
