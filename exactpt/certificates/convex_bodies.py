@@ -1,4 +1,4 @@
-"""Whether a scene has only convex bodies, for which there are simpler tilings."""
+"""Test for scenes of convex bodies only, for which there are simpler tilings."""
 
 from __future__ import annotations
 

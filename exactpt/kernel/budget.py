@@ -22,7 +22,7 @@ from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
 LONG: Final = 64
-"""Number of coefficients from which on loops over the coefficients of a polynomial ask."""
+"""Number of coefficients from which on loops over coefficients of a polynomial check the budget."""
 
 GRACE: Final = 0.25
 """Seconds after its deadline in which a search may still stop by itself, between two steps."""

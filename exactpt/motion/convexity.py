@@ -1,4 +1,4 @@
-"""Whether a deforming polygon stays convex: then its interior needs no tiling."""
+"""Test if a deforming polygon stays convex: its interior needs no tiling in that case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether bodies contain points, and each other."""
+"""Containment of points, and of bodies in each other."""
 
 from __future__ import annotations
 

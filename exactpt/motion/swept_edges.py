@@ -147,7 +147,7 @@ class SweptEdges:
         return near
 
     def _busy(self, boxes: Boxes) -> NDArray[np.bool_]:
-        """For each body, whether it deforms, or its box intersects that of another one."""
+        """For each body, whether it deforms, or its box intersects that of another body."""
         busy = self.deforms.copy()
         for first, second in overlapping_pairs(self.of_bodies(boxes)):
             busy[first] = busy[second] = True

@@ -178,7 +178,7 @@ def feature_pairs(
         a: a body.
         b: the other body.
         p: the trajectories of the vertices of the first body.
-        q: those of the other one.
+        q: those of the second body.
         numbers: the numbers of the pairs to yield, if not all. Pairs of vertices have the first
             ones, then edges of the first body with vertices, then vertices with edges.
     """

@@ -1,4 +1,4 @@
-"""Whether two bodies meet, or overlap, at a rational time: more than a touch of boundaries."""
+"""Contacts and overlaps (more than a touch of boundaries) of two bodies at a rational time."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class Planner:
             motion: its motion.
 
         Raises:
-            InputError: if the shape is no simple polygon or chain at the start, the motion
+            InputError: if the shape is not a simple polygon or chain at the start, the motion
                 jumps, or an obstacle has its name.
         """
         return self.first_contacts(shape, [motion])[0]

@@ -1,4 +1,4 @@
-"""Whether two bodies meet, or have met, although their points may be somewhat out of place.
+"""Certain contacts of two bodies whose points are known within an error.
 
 Let each point of the core of body A be at most e_A from its true place, of B at most e_B, and let
 E = e_A + e_B, r the sum of the radii, m = E - r. The true bodies touch if the true cores are within
@@ -75,7 +75,7 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
 
 
 def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error: QQ) -> bool:
-    """Return True if it is proved that a point has met an edge of another body between two times.
+    """Return True if a point has provably touched an edge of another body between two times.
 
     Args:
         point: a body of one vertex.

@@ -204,7 +204,7 @@ def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
 
 
 def _is_near(v: Point, a: Point, b: Point, d: QQ) -> bool:
-    """Return True if the closed segment ab meets the square of half-side d around v."""
+    """Return True if the closed segment ab intersects the square of half-side d around v."""
     low, high = QQ(0), QQ(1)
     for at, start, end in zip(v, a, b, strict=True):
         if start == end:

@@ -40,7 +40,7 @@ MAX_ANGLES_OF_FIVE: Final[int] = 20
 
 @mypyc_attr(allow_interpreted_subclasses=True)
 class Followers:
-    """What else is certified of a mesh; its methods do nothing by default, see `Rules`."""
+    """Further certificates of a mesh; its methods do nothing by default, see `Rules`."""
 
     def certify(self) -> None:
         """Certify a newly built tiling, except for its angles."""

@@ -40,8 +40,8 @@ class FailureGroup:
     def begin_repair(self) -> None:
         """Begin the next repair, to which later `touch` calls refer, and check the budget.
 
-        Repairs of a forged tiling may have no end. For the first one at a time, whoever advanced
-        to it has asked.
+        Repairs of a forged tiling may have no end. For the first repair at a time, the caller that
+        advanced to it has checked it.
         """
         if self._repair > 0:
             check_budget()

@@ -87,7 +87,7 @@ class Bitangent:
         self.key: float = key
 
     def __lt__(self, other: Bitangent) -> bool:
-        """Return True if the sweep meets it first, for bitangents with equal keys: a total order.
+        """Return True if the sweep reaches it first, for bitangents with equal keys: a total order.
 
         By theta at the instant. Parallel bitangents on different lines do not cross, so their
         order does not matter; it is that of their lines. On one line they are ordered by theta

@@ -95,7 +95,7 @@ class CertifiedCells:
                 self.certify(cell)
 
     def is_rising(self, left: VertexId, right: VertexId) -> bool:
-        """Whether, of two vertices of equal x now, the right one just before is the upper one."""
+        """Return True if, of two vertices of equal x, the right one just before is the upper."""
         u, v = self._certified.vertices.all[left], self._certified.vertices.all[right]
         return coordinate_order(self._certified.certifier, u, v, 1) > 0
 

@@ -25,7 +25,7 @@ def seen_from(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> H
         return None
     crossed: HalfEdge | None = None
     while True:
-        # The vertical may meet a tile twice; only edges beyond the one crossed last count.
+        # The vertical may cross a tile twice; only edges beyond the one crossed last count.
         nearest: HalfEdge | None = None
         for g in mesh.map.face(h):
             if (

@@ -57,7 +57,7 @@ def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> Labell
 
     Args:
         mesh: the tiling.
-        faces: one half-edge of every face that it meets.
+        faces: one half-edge of every face that it intersects.
     """
     return LabelledRegion(mesh, faces, [], nodes_changed_by_insertion(mesh, faces), None)
 
