@@ -431,7 +431,7 @@ def test_a_mistake_in_a_filter_is_found_by_questions(monkeypatch, bound):
 
 
 def test_a_run_restored_without_its_last_contact_is_found(monkeypatch):
-    monkeypatch.setattr("exactpt.simulation.saved_run._met_from_json", lambda *_: None)
+    monkeypatch.setattr("exactpt.simulation.saved_run._reported_from_json", lambda *_: None)
 
     assert run_case(Case(0, "questions/restored", 0), witnesses=[]).findings
 
