@@ -34,8 +34,8 @@ CELL: Final = 1000.0
 RADIUS: Final = 5.0
 SPEED: Final = 1000
 END: Final = 100
-MOST: Final = 100_000
-"""Number of bodies up to which they bounce."""
+MOST: Final = 10_000
+"""Number of bodies up to which they bounce: of 100,000, a contact of `greedy` took 30 s."""
 TILINGS: Final = ("lazy", "greedy")
 
 
@@ -54,7 +54,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes((100,), 50, 5)
-FULL: Final = Sizes((1000, 10_000, 100_000, 1_000_000), 50_000, 200)
+FULL: Final = Sizes((1000, 10_000, 100_000, 1_000_000), 50_000, 20)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
