@@ -7,7 +7,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from ranked import RANKED
+from ranked import FORMER, RANKED, FormerRules
 
 import exactpt
 from exactpt.certificates.at_time import PredicatesAt
@@ -28,10 +28,11 @@ PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRul
 
 @pytest.fixture
 def registered():
-    catalogue.ENTRIES.extend([RANKED, PLAIN])
+    added = [RANKED, FORMER, PLAIN]
+    catalogue.ENTRIES.extend(added)
     yield
-    catalogue.ENTRIES.remove(RANKED)
-    catalogue.ENTRIES.remove(PLAIN)
+    for entry in added:
+        catalogue.ENTRIES.remove(entry)
 
 
 def test_the_names_of_the_tilings():
@@ -163,3 +164,11 @@ def test_the_page_on_tilings_has_all_that_predicates_offer():
     named = set(re.findall(r"`(\w+)[`(]", table)) - attributes
 
     assert named == {n for n in vars(PredicatesAt) if not n.startswith("_")} - attributes
+
+
+@pytest.mark.usefixtures("registered")
+def test_rules_of_0_2_that_define_restore_are_still_called():
+    scene = generate("convex", 3)
+    with pytest.warns(DeprecationWarning, match="recanonicalize"):
+        list(Simulation(scene, tiling="former").run())
+    assert FormerRules.calls > 0
