@@ -105,6 +105,7 @@ class Separation:
         breaks = {q for i in bodies for q in self._paths.breaks[i].breaks if start < q < end}
         return min(breaks, key=lambda q: (abs(q - middle), q)) if breaks else middle
 
+    @np.errstate(all="ignore")  # a line from an overflow is not proposed
     def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:
         """Return a good moving line, with the items below and above it; None if there is none."""
         for cut, most in self._proposed(frame, items, rows):

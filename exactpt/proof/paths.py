@@ -123,6 +123,7 @@ class Frame:
         ends_of: the two vertices of each item.
     """
 
+    @np.errstate(all="ignore")  # the checker's exact test decides about infinities and NaN
     def __init__(self, paths: Paths, items: Items, start: Fraction, end: Fraction) -> None:
         self.time, self.start, self.length = Interval(start, end), start, float(end - start)
         self._paths, self._items = paths, items

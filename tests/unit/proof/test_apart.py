@@ -689,3 +689,14 @@ def test_the_command_has_both_checkers_verify(tmp_path, monkeypatch, request, wi
     second = done.stdout.splitlines()[1:]
     assert second == (["cgal_check agrees"] if with_cgal else [])
     assert ("verified by one checker" in done.stderr) is not with_cgal
+
+
+@pytest.mark.parametrize("power", [155, 307])
+def test_sums_and_squares_beyond_the_doubles_warn_of_nothing(power):
+    """Lines are proposed in floats that overflow, of which numpy warned (here an error)."""
+    s = 10**power
+    left = Body("b", [(-s, 0), (-s // 2, -s // 3), (-s, s)])
+    right = Body("d", [(s, 1), (3 * s // 2, 7)])  # touched at t = 1 / s
+    rising = Body("a", [(0, 0), (s, 0), (s // 2, s)], Translation([0, s]))
+    with pytest.raises(BudgetExceeded, match="too near to each other"):
+        exactpt.certify(Scene([rising, left, right], time=(0, 1)))
