@@ -41,7 +41,7 @@ def both(moving, t, after):
 @given(scenes, times, st.booleans())
 def test_signs_of_many_triples(moving, t, after):
     fast, exact = both(moving, t, after)
-    triples = list(permutations([v.id for v in moving.all[:7]], 3))
+    triples = list(permutations([v.id for v in list(moving.all)[:7]], 3))
 
     expected = [exact.orientation(*triple) for triple in triples]
 
@@ -65,7 +65,7 @@ def test_the_order_from_left_to_right(moving, t, after):
 @given(scenes, times, st.booleans())
 def test_turns_of_directions(moving, t, after):
     fast, exact = both(moving, t, after)
-    ids = [v.id for v in moving.all[:4]]
+    ids = [v.id for v in list(moving.all)[:4]]
 
     for a, b, c, d in product(ids, repeat=4):
         assert fast.cross_sign(a, b, c, d) == exact.cross_sign(a, b, c, d)

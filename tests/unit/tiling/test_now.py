@@ -83,7 +83,7 @@ def test_the_filter_of_coordinates_is_right_at_irrational_times_too(moving, t):
 
 def on_one_line(moving, t):
     """Triples of vertices on one line then, most of them of one body or two."""
-    return [abc for abc in permutations(moving.all[:7], 3) if turn(abc, t) == 0]
+    return [abc for abc in permutations(list(moving.all)[:7], 3) if turn(abc, t) == 0]
 
 
 @pytest.mark.long
@@ -115,7 +115,7 @@ def test_between_and_nearer_on_a_line(moving, t):
 def test_the_nearer_copy_is_the_one_whose_offset_points_there(moving, t):
     certifier = certifier_at(moving, t)
     instant = PredicatesAt(moving, t)
-    for p, a, b in permutations(moving.all[:7], 3):
+    for p, a, b in permutations(list(moving.all)[:7], 3):
         if a.track is not b.track:
             assert nearer_copy(certifier, p, a, b) == 0
             continue
@@ -143,7 +143,7 @@ def test_signs_just_before_and_just_after_now(moving, t, before):
     certifier = certifier_at(moving, t)
     moment = OneSided(certifier, before=before)
     near = t - TINY if before else t + TINY
-    for a, b, c in permutations(moving.all[:6], 3):
+    for a, b, c in permutations(list(moving.all)[:6], 3):
         if len({id(v.track) for v in (a, b, c)}) == 3:
             assert moment.orientation(a.id, b.id, c.id) == turn((a, b, c), near)
         p, q = place(a, near), place(b, near)
@@ -159,7 +159,7 @@ def test_signs_just_before_and_just_after_now(moving, t, before):
 def test_signs_at_an_instant(moving, t, after):
     """At the time itself, or just after it; with the filter, without it, and exactly."""
     instants = [PredicatesAt(moving, t, after=after, exact_only=exact) for exact in (False, True)]
-    for a, b, c in permutations(moving.all[:6], 3):
+    for a, b, c in permutations(list(moving.all)[:6], 3):
         f = orientation_polynomial(a, b, c)
         exactly = instants[0].first_sign((f,))
         assert [i.orientation(a.id, b.id, c.id) for i in instants] == [exactly] * 2
@@ -178,7 +178,7 @@ def test_many_certificates_at_once(moving, t):
     signs, lows, highs = certifier.orientations(rows)
     assert certifier.made == np.count_nonzero(signs)
     for (a, b, c), s, low, high in zip(rows.tolist(), signs, lows, highs, strict=True):
-        abc = [moving.all[i] for i in (a, b, c)]
+        abc = [list(moving.all)[i] for i in (a, b, c)]
         if len({id(v.track) for v in abc}) < 3 or s == 0:
             continue
         time = None if low == INFINITY else EventTime(low, high, a, b, c)

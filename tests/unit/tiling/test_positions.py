@@ -99,7 +99,7 @@ def test_coordinates_that_no_double_holds_are_left_open():
     positions = Certifier(vertices, QQ(0), QQ(1), exact_only=False).positions
 
     assert positions.orientation(*vertices.all) in (0, 1)
-    assert positions.order(vertices.all[1], vertices.all[2], 1) == 0
+    assert positions.order(list(vertices.all)[1], vertices.all[2], 1) == 0
 
 
 large = st.integers(-(10**9), 10**9)
@@ -127,7 +127,7 @@ def test_what_is_on_one_line_stays_open(place, step, along, path, half, time):
     low, high = vertices.frame.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
 
-    assert certifier.positions.orientation(*vertices.all[:3]) == 0
+    assert certifier.positions.orientation(*list(vertices.all)[:3]) == 0
     assert certifier.positions.cross_sign(*vertices.all) == 0
 
 
@@ -146,7 +146,7 @@ def test_a_sign_holds_in_the_whole_enclosure_of_now(turns):
         certifier.move_to(EventTime(low, high, -1, -1, -1), [])
 
         assert bool(certifier.positions.orientation(*vertices.all)) == known
-        assert bool(certifier.positions.order(*vertices.all[1:], 1)) == known
+        assert bool(certifier.positions.order(*list(vertices.all)[1:], 1)) == known
 
 
 @pytest.mark.parametrize("corner", range(4))
