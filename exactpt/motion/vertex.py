@@ -112,7 +112,9 @@ class MovingBody:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Its name; empty for the body of vertices that no body has had."""
+        if self._number < 0:
+            return ""
         name_of = None if self._body is not None else getattr(self._bodies, "name", None)
         return self.body.name if name_of is None else str(name_of(self._number))
 
@@ -172,7 +174,7 @@ class MovingBody:
 
 
 _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
-_NO_BODY: Final = MovingBody((), 0)
+_NO_BODY: Final = MovingBody((), -1)
 
 
 @final

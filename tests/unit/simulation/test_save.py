@@ -99,6 +99,17 @@ def bouncing(seed):
     return Scene([*moved, *walls], (0, 10))
 
 
+def test_bug_unused_vertices_of_a_restored_run_have_a_name(tmp_path):
+    """IndexError: their body was the first one of none."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    simulation.remove(simulation.scene.bodies[0].name)
+    simulation.save(tmp_path / "run.json")
+    vertices = Simulation.restore(tmp_path / "run.json").kinetic.vertices
+
+    assert vertices.free
+    assert {vertices.name(v) for v in vertices.free} == {":-1"}
+
+
 def test_contacts_that_go_on_are_saved(tmp_path):
     """A bounce before and after the interruption; plans that were set on the way."""
     respond = Bounce(("west", "east"))
