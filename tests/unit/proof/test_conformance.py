@@ -62,6 +62,8 @@ def test_the_checker_in_cpp(program, tmp_path):
 def test_what_is_no_scene_to_exactpt_is_none_to_a_checker(tmp_path):
     refused = 0
     for name, document in DOCUMENTS.items():
+        if document["group"] == "rows":  # a scene a line
+            continue
         scene, _ = written(document, tmp_path)
         try:
             Scene.load(scene)
