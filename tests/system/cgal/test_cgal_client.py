@@ -114,7 +114,7 @@ BAD_TILES = [
     (lambda t: t["edges"][0].update(v=4), "there is no vertex 4 among 4"),
     (lambda t: t["edges"][0].update(v=-1), "there is no vertex -1 among 4"),
     (lambda t: t["faces"][0].update(vertices=[1, 3, 9]), "there is no vertex 9 among 4"),
-    (lambda t: t["faces"][0].update(corners=[1, 3]), "face 0 is said to have 2 corners"),
+    (lambda t: t["faces"][0].update(corners=[1, 3]), "face 0 has 2 corners"),
 ]
 
 
