@@ -183,13 +183,14 @@ def test_first_contact_and_the_command_write_it(tmp_path):
     arguments = ["collide", str(file), "--certificate", str(path), "--until", "3"]
     CliRunner().invoke(cli, arguments, catch_exceptions=False)
     done = CliRunner().invoke(cli, ["check", str(path)])
-    assert done.output.splitlines()[0].endswith(
+    verdict = (
         " no two bodies share a point in [0, 3]; the span of the scene is [0, 8]: nothing is said "
         "of (3, 8]"
     )
+    assert f"{verdict}\n" in done.output  # without cgal_check, another line says so
     path.write_bytes(path.read_bytes().replace(b"none", b"meet 7 0 4"))
     done = CliRunner().invoke(cli, ["check", str(path)], standalone_mode=False)
-    assert (done.return_value, done.output[:16]) == (1, "rejected: line 5")
+    assert (done.return_value, "rejected: line 5" in done.output) == (1, True)
 
 
 def test_exit_codes(tmp_path, capsys):
