@@ -85,7 +85,7 @@ def beside(
         question: its name.
         ways: by name, what prepares a way, which is not timed. The answer is that of the first.
         runs: number of runs.
-        value: what is compared of an answer.
+        value: the part of an answer that is compared.
 
     Raises:
         AuditError: if two ways have different answers.

@@ -1,6 +1,6 @@
 """Twenty families of questions for `exponents`, written from the documents alone.
 
-They are what users ask without a thought of what is fast: the author had read the README and the
+Users write such scenes without knowing which are fast: the author had read the README and the
 pages of `docs`, and neither the code of the package nor the families of `exponents` that it was
 tuned on.
 """

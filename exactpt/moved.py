@@ -44,4 +44,5 @@ class Moved:
         module.__spec__ = spec and spec.loader_state
 
 
+# The first finder: the path of a moved package would find a second copy of its modules.
 sys.meta_path.insert(0, Moved)

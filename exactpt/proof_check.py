@@ -75,7 +75,7 @@ WORK = Work()
 
 
 class Proved(str):
-    """What is proved, in words."""
+    """The proved statement, in words."""
 
     until: Fraction  # the end of the span of the proof
     whole: bool  # whether the answer is that of the whole span of the scene
@@ -353,7 +353,7 @@ def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
     while b.low - a.high < unit:
         require(b.high > a.low, "times do not increase")
         width = max(a.high - a.low, b.high - b.low)
-        if width < near and a.low < a.high and b.low < b.high:
+        if width < near and a.low < a.high and b.low < min(a.high, b.high):
             near, both = Fraction(0), a.f.common_divisor(b.f)
             signs = [both.sign_at(q) for q in (max(a.low, b.low), min(a.high, b.high))]
             require(signs[0] * signs[1] >= 0, "times do not increase")

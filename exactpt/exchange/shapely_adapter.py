@@ -62,9 +62,7 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
         InputError: if it is not well-known text, or of a kind that shapely cannot read.
     """
     try:
-        with errstate(
-            all="ignore"
-        ):  # the text may hold numbers beyond the range of doubles, or NaN
+        with errstate(all="ignore"):  # numbers may be beyond the doubles, or NaN
             geometry = shapely.from_wkt(text)
     except shapely.errors.ShapelyError as error:
         reason = shorten(str(error).split("Exception: ")[-1].strip())

@@ -78,11 +78,9 @@ class Paths:
         self._bodies, self.distance, self.extra = bodies, distance, float(distance)
         self.breaks = [Breaks(body.breakpoints) for body in bodies]
         self.radii = [body.radius for body in bodies]
-        self.items, self.body_of, self.first = (
-            list[tuple[int, int, int]](),
-            list[int](),
-            list[int](),
-        )
+        self.items: list[tuple[int, int, int]] = []
+        self.body_of: list[int] = []
+        self.first: list[int] = []
         for i, body in enumerate(bodies):
             first = len(self.body_of)
             self.first.append(first)

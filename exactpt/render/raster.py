@@ -1,4 +1,4 @@
-"""Frames of films as images of Pillow: a tenth of the time of an SVG document, a PNG and back.
+"""Frames of films as images of Pillow, without an SVG document and a PNG between.
 
 A picture has twice its size while its lines are drawn, and is then reduced: a pixel is the mean of
 four. Coordinates are those of `exactpt.render.svg`, and colours those of its style.

@@ -1,4 +1,4 @@
-"""What was public in 0.1.0 is still there: names, attributes and parameters; no circle of imports.
+"""Names, attributes and parameters that were public in 0.1.0 exist; no circle of imports.
 
 A name that is to go keeps an alias for a version, which warns.
 """

@@ -114,7 +114,7 @@ ANSWERS = {
 
 
 def shown(value):
-    """What tells a value from another one: its repr, else its events or its attributes."""
+    """The part of a value that differs from others: its repr, else its events or its attributes."""
     if isinstance(value, Simulation):
         return repr([*value.copy().run()])
     return repr(value) if type(value).__repr__ is not object.__repr__ else repr(vars(value))

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -263,3 +264,17 @@ def test_bug_a_part_that_lasts_no_time_left_its_file_open(tmp_path):
 
     assert file.closed
     assert list((tmp_path / "run").glob("*.proof")) == []
+
+
+def test_bug_three_roots_in_a_row_are_three_times():
+    """The middle root was between the intervals of the others, and taken for a root in both."""
+    unit = Fraction(1, 2**proof_check.APART)
+    middle = Fraction(1, 2)
+    roots = [middle + k * unit * Fraction(3, 2) for k in (-1, 0, 1)]
+    f = proof_check.Poly([1])
+    for root in roots:
+        f = f * proof_check.Poly([-root.numerator, root.denominator])
+    a = proof_check.Time(middle - 2 * unit, middle - unit / 4, f)
+    b = proof_check.Time(middle + unit / 4, middle + 2 * unit, f)
+    proof_check.WORK.start(None, 0)
+    assert roots[0] < proof_check.between(a, b, Fraction(0), unit) < roots[2]
