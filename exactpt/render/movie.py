@@ -72,20 +72,20 @@ def write_movie(
         from exactpt.render.raster import image_of
 
         images = (image_of(frame, theme) for frame in frames_of(film, count))
-        told = _telling(images, count + 1, done)
+        counted = _counted(images, count + 1, done)
         if path.suffix.lower() == ".gif":
             some = [image_of(frame, theme) for frame in frames_of(film, SAMPLES)]
-            _write_gif(told, some, path, fps)
+            _write_gif(counted, some, path, fps)
         else:
-            _write_mp4(told, path, fps)
+            _write_mp4(counted, path, fps)
     except ImportError as error:
         raise InputError(
-            f"GIF and MP4 need the library {error.name}, which is not installed: "
+            f"a GIF needs Pillow, an MP4 imageio-ffmpeg too; there is no module {error.name}: "
             "pip install 'exactpt[film]' (SVG and HTML need nothing)"
         ) from None
 
 
-def _telling(
+def _counted(
     images: Iterable[Image], count: int, done: Callable[[int, int], None] | None
 ) -> Iterator[Image]:
     for k, image in enumerate(images, 1):
