@@ -57,7 +57,7 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """True if there are no failures."""
+        """True without failures."""
         return not self.failures
 
     def to_json(self) -> dict[str, object]:

@@ -386,7 +386,7 @@ def hull(track: Track, a: int, b: int, m: int) -> Hull:
     For each linear f, the values w f(x, y, t) are positive multiples of the coefficients in the
     Bernstein basis of the interval of a polynomial: of f along the path, times its denominator.
     Its degree is that of the track plus 1, or 1 if the path is linear: then these are its ends.
-    (Where a w is not positive there is no such point, but these multiples have that meaning.)
+    (Where a w is not positive no such point exists, but these multiples have that meaning.)
     """
     d = max(map(len, track)) - 1
     WORK.spend(8 + words(a) + words(b) + words(m))
@@ -690,7 +690,7 @@ def check_rows(scenes: list[str], rows: list[str]) -> Proved:
 
 
 def differs(proved: Proved, answer: bytes) -> str:
-    """Return how an answer of `exactpt collide --json` differs from the statement; "" if not."""
+    """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
         data = json.loads(answer, parse_int=Bare, parse_float=Bare)
         if data["contact"] is None:

@@ -35,7 +35,7 @@ class InputError(ExactPTError, ValueError):
 
 
 class TimeRangeError(InputError):
-    """There is no answer at the given time: it is outside the time span or after the contact."""
+    """The given time is outside the time span or after the contact."""
 
 
 class UnreachableError(InputError):
@@ -82,7 +82,7 @@ def carry(error: AuditError, scene: Callable[[], Scene]) -> None:
 class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
     """A limit on events, time or memory was reached.
 
-    ``reached`` is a rational time: there is no contact in the closed interval from the start
+    ``reached`` is a rational time: no contact exists in the closed interval from the start
     of the scene to it. It is None if nothing has been proved. ``answer`` has the first contact, or
     None, if that was found, but no certificate of it.
     """

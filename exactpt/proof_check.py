@@ -44,7 +44,7 @@ Json = Any
 
 
 class NoProofError(Exception):
-    """The files are no scene, not in the format of proofs, or the proof is of another scene."""
+    """The files are not a scene or not a proof in the format, or the proof is of another scene."""
 
 
 class Rejected(Exception):  # noqa: N818 - a verdict
@@ -78,7 +78,7 @@ class Proved(str):
     """The proved statement, in words."""
 
     until: Fraction  # the end of the span of the proof
-    whole: bool  # whether the answer is that of the whole span of the scene
+    whole: bool  # whether the statement covers the whole span of the scene
     time: "Time | None"  # of the contact
     incidences: set[Angle]  # (vertex, 0, vertex) or (vertex, 1, first vertex of an edge)
     scene: "Scene"
@@ -1428,7 +1428,7 @@ class Checker:
     # Step 6: a contact at a time between intervals.
 
     def check_clusters(self, faces: set[Face], time: Time) -> None:
-        """Check that there is no contact in the clusters of these faces."""
+        """Check that the clusters of these faces have no contact."""
         while faces:
             todo, cluster = [faces.pop()], set[Dart]()
             while todo:
@@ -1631,7 +1631,7 @@ def judge(proved: Proved, given: dict[str, str]) -> None:
 
 
 def differs(proved: Proved, answer: bytes) -> str:
-    """Return how an answer of `exactpt collide --json` differs from the statement; "" if not."""
+    """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
         data = json.loads(answer, parse_int=Bare, parse_float=Bare)
         contact, pairs = data["contact"], set[Angle]()

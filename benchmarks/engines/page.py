@@ -13,21 +13,21 @@ __all__ = ["page"]
 
 _HEAD: Final = """# Engines under test
 
-Programs that find when moving bodies touch, asked the degenerate and generic questions of [exactpt.testing](../testing.md) and compared with the exact truth. `python -m benchmarks engines -o docs/engines{seed}` writes this page, the table by family ([engines.csv](engines.csv)) and the reproducers; npm packages are found in a folder `node_modules` at or above the current one, or in the one that `EXACTPT_NODE_MODULES` names. {questions} questions of each of the {families} families, seed {number}.
+Programs that find when moving bodies touch, called with the degenerate and generic questions of [exactpt.testing](../testing.md) and compared with the exact truth. `python -m benchmarks engines -o docs/engines{seed}` writes this page, the table by family ([engines.csv](engines.csv)) and the reproducers; npm packages are found in a folder `node_modules` at or above the current one, or in the one that `EXACTPT_NODE_MODULES` names. {questions} questions of each of the {families} families, seed {number}.
 
-**How to read it.** Most of these programs are made for simulations, where a contact a little early is as good as the exact one; they promise a tolerance, and keeping it is no fault. Most of the questions are degenerate on purpose: the shares say nothing about everyday scenes. An answer is
+**How to read it.** Most of these programs are made for simulations, where a contact a little early is as good as the exact one; they promise a tolerance, and keeping it is no fault. Most of the questions are degenerate on purpose: the shares do not describe everyday scenes. A result is
 
 * *right*: the truth, or a time within 10^-9 of it;
 * *within*: what the engine promises: bodies that are nearer than its tolerance count as touching, bodies that sink in by less as apart, a program that takes steps is late by a step and skips what is shorter than one;
-* *missed, late, invented, early*: neither. *Crashed*: no answer, an exception, or an answer that says that it is none;
+* *missed, late, invented, early*: neither. *Crashed*: no result, an exception, or a result that is marked as a failure;
 * *not asked*: a question that the engine is not made for, or whose numbers it cannot represent.
 
-The error is the largest one of a time within the promise (where bodies slide along each other without sinking in, that may be long). The last column is the median time of one answer in microseconds, shapes made anew for each, in the engine's own process; a call from Python or JavaScript costs a part of it, so these times compare nothing but orders of magnitude ({machine}).
+The error is the largest one of a time within the promise (where bodies slide along each other without sinking in, that may be long). The last column is the median time of one call in microseconds, shapes made anew for each, in the engine's own process; a call from Python or JavaScript costs a part of it, so these times compare nothing but orders of magnitude ({machine}).
 """  # noqa: E501 - one line a paragraph
 
 _TAIL: Final = """## Another engine
 
-An adapter is one file next to the others in `benchmarks/engines/adapters`: `with_NAME.py` with `ABOUT` and `answer(question, way)`, or `with_NAME.mjs` with `about`, `load()` and `answer(engine, question, way)`. `ABOUT` says how the engine is asked, quotes what it promises, which questions it takes and what tolerance it is allowed. Whoever knows an engine better than its adapter does: mend the adapter, and run the command.
+An adapter is one file next to the others in `benchmarks/engines/adapters`: `with_NAME.py` with `ABOUT` and `answer(question, way)`, or `with_NAME.mjs` with `about`, `load()` and `answer(engine, question, way)`. `ABOUT` states how the engine is called, quotes what it promises, which questions it takes and what tolerance it is allowed. Whoever knows an engine better than its adapter does: mend the adapter, and run the command.
 """  # noqa: E501 - one line a paragraph
 
 
@@ -64,7 +64,7 @@ def _totals(results: Sequence[Result]) -> Iterator[str]:
 
 
 def _families(results: Sequence[Result]) -> Iterator[str]:
-    yield "Wrong answers by family, of those asked (blank: none asked):"
+    yield "Wrong results by family, of the questions used (blank: none used):"
     yield ""
     yield from _header(["family", *(r.name for r in results)], words=1)
     for family in FAMILIES:
@@ -90,7 +90,7 @@ def _section(result: Result, sources: Mapping[str, str]) -> Iterator[str]:
         for family, row in result.rows.items()
         if any(row[v] for v in WRONG)
     ]
-    yield f"Wrong: {'; '.join(wrong)}." if wrong else "No answer is wrong."
+    yield f"Wrong: {'; '.join(wrong)}." if wrong else "No result is wrong."
     yield ""
     if result.worst is not None:
         name = sources[result.name]

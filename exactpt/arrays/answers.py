@@ -1,4 +1,4 @@
-"""Answers, written into the arrays of `Contacts`."""
+"""Results, written into the arrays of `Contacts`."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class Block(NamedTuple):
 
     Attributes:
         outlines, bodies: all bodies.
-        contacts: the answers.
+        contacts: where the results are written.
         numbers: the numbers of the pairs.
         i, j: the bodies of the pairs.
         spans: their time spans.

@@ -51,10 +51,10 @@ class Contacts:
             is of the first or the second body, and its number; -1 without an incidence.
         edge, other_vertex: the edge or the vertex of the other body that it touches; -1 if it
             touches none, or the other kind.
-        exact: whether exact arithmetic has decided the answer; else a filter in doubles has,
+        exact: whether exact arithmetic has decided the result; else a filter in doubles has,
             whose bounds are proved.
-        refused: with ``errors="mask"``, whether there is no answer, since the pair's geometry is
-            refused: then `low` and `high` are NaN, and `found` is false (see `reasons`).
+        refused: with ``errors="mask"``, true for a pair whose geometry is refused, without a
+            result: `low` and `high` are NaN, and `found` is false (see `reasons`).
     """
 
     __slots__ = (
@@ -81,14 +81,14 @@ class Contacts:
 
     @property
     def exact_share(self) -> float:
-        """The share of answers that exact arithmetic has decided, from 0 to 1."""
+        """The fraction of pairs that exact arithmetic has decided, from 0 to 1."""
         return float(self.exact.mean()) if len(self) else 0.0
 
     def contact(self, i: int) -> Contact | None:
         """Return the exact contact of a pair, equal to `exactpt.first_contact`, or None.
 
         Raises:
-            IndexError: if there is no such pair.
+            IndexError: if the pair does not exist.
             InputError: if the pair is refused.
         """
         k = range(len(self))[operator.index(i)]
@@ -97,7 +97,7 @@ class Contacts:
         return pair_search(self.scene(k)).run_to_contact() if self.found[k] else None
 
     def refuse(self, i: int, reason: str) -> None:
-        """Mark a pair that has no answer yet as refused, for a reason of one line."""
+        """Mark a pair without a result as refused, for a reason of one line."""
         self.refused[i] = True
         self.low[i] = self.high[i] = np.nan
         self._reasons[i] = reason
@@ -110,7 +110,7 @@ class Contacts:
         """Return the scene of the two bodies of a pair.
 
         Raises:
-            IndexError: if there is no such pair.
+            IndexError: if the pair does not exist.
         """
         return self._scene(range(len(self))[operator.index(i)])
 

@@ -37,7 +37,7 @@ def first_contacts(
 ) -> Contacts:
     """Return the first contacts of pairs of bodies, of each pair for itself.
 
-    Each answer is that of `exactpt.first_contact` for a scene of the two bodies.
+    Each result equals that of `exactpt.first_contact` for a scene of the two bodies.
 
     >>> found = first_contacts(
     ...     [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3)], [0, 3, 6], [(0, 1)],
@@ -61,7 +61,7 @@ def first_contacts(
         radii: for each body or for all, its radius.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
         errors: "mask" leaves pairs with a body that is not simple, or has a number that is not
-            finite, without an answer (`Contacts.refused`, `Contacts.reasons`); "raise" raises an
+            finite, without a result (`Contacts.refused`, `Contacts.reasons`); "raise" raises an
             error for the first one.
 
     Raises:

@@ -45,7 +45,7 @@ def point_segment_contacts(
 ) -> Contacts:
     """Return the first contacts of moving points with moving segments, of each pair for itself.
 
-    Each answer is that of `exactpt.first_contact` for a scene of the point (body 0) and the
+    Each result equals that of `exactpt.first_contact` for a scene of the point (body 0) and the
     segment (body 1); so a segment that shrinks to a point touches itself.
 
     >>> found = point_segment_contacts(
@@ -62,7 +62,7 @@ def point_segment_contacts(
             for vertices at rest.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each.
         errors: "mask" leaves queries whose segment is a point at the start, or with a number that
-            is not finite, without an answer (`Contacts.refused`, `Contacts.reasons`); "raise"
+            is not finite, without a result (`Contacts.refused`, `Contacts.reasons`); "raise"
             raises an error for the first one.
 
     Raises:
@@ -213,7 +213,7 @@ def _points(row: Floats) -> list[tuple[tuple[QQ, QQ], tuple[QQ, QQ]]]:
 
 
 def _decide(contacts: Contacts, i: int, row: Floats, spans: Spans) -> None:
-    """Answer one query exactly: when the point is on the segment, or that shrinks to a point."""
+    """Decide one query exactly: when the point is on the segment, or on it shrunken to a point."""
     p, a, b = (translated(x, y) for x, y in _points(row))
     start, end = (exact(float(s[i])) for s in (spans.start, spans.end))
     begin = AlgebraicNumber(start)

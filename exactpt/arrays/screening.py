@@ -20,7 +20,7 @@ from exactpt.scene.scene import Scene
 def screened(bodies: BodyArrays, time: Floats, scene: Callable[[int], Scene]) -> Contacts:
     """Return the first contacts of the pairs (0, 1), (2, 3), ... of bodies with rounded numbers.
 
-    Where filters decide, the answer is that of the exact scene. Else ``exact`` is true, and the
+    Where filters decide, the result is that of the exact scene. Else ``exact`` is true, and the
     pair is left open: its bodies may also be none (a polygon that is not simple).
 
     Args:

@@ -23,7 +23,7 @@ def decide(contacts: Contacts, k: int, candidates: Sequence[Candidate], *, uncle
     """Record the first contact of pair k.
 
     Args:
-        contacts: the answers.
+        contacts: where the results are written.
         k: the number of the pair.
         candidates: its possible first incidences, in the order of time.
         unclear: whether the bodies may touch at the start.

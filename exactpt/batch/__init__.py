@@ -1,7 +1,7 @@
-"""Many scenes, one question: `answers` for texts in memory, `run` for files, on many workers.
+"""One query about many scenes: `answers` for texts in memory, `run` for files, on many workers.
 
-Both take scenes as `exactpt.Scene.save` writes them, one JSON text each, and give answers as JSON
-(docs/format.md). A scene that has no answer has an error instead, and the others go on.
+Both take scenes as `exactpt.Scene.save` writes them, one JSON text each, and return results as JSON
+(docs/format.md). A scene that fails has an error as its result, and the others go on.
 """
 
 from exactpt.batch.answering import answers

@@ -1,4 +1,4 @@
-"""The answers for scenes: pairs of bodies that translate by arrays, the rest one by one."""
+"""The results of scenes: pairs of bodies that translate by arrays, the rest one by one."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Answer = dict[str, object]
 
 
 def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> Iterator[Answer]:
-    """For each scene, a JSON text, its answer (docs/format.md) without the number of a line.
+    """Yield the result of each scene, a JSON text (docs/format.md), without a line number.
 
     >>> two = '''{"exactpt": 1, "time": [0, 9], "bodies": [
     ...     {"name": "ball", "vertices": [[0, 0]], "motion": {"x": [0, 1]}},
@@ -50,14 +50,14 @@ def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> 
 
 
 def answers_of(contents: Sequence[bytes], question: Question) -> Iterator[Answer]:
-    """Yield the answers for some scenes, all of which are taken together."""
+    """Yield the results of some scenes, computed together."""
     known = _by_arrays(contents, question) if question.is_plain else {}
     for k, content in enumerate(contents):
         yield known[k] if k in known else answer(content, question)
 
 
 def answer(content: bytes, question: Question) -> Answer:
-    """Return the answer about a scene as JSON, or ``{"error"}`` with the reason."""
+    """Return the result of a scene as JSON, or ``{"error"}`` with the reason."""
     if len(content) > question.max_bytes:
         return {"error": f"more than {question.max_bytes} bytes"}
     try:
@@ -70,7 +70,7 @@ def answer(content: bytes, question: Question) -> Answer:
         return {"error": "memory limit exceeded"}
     except RoundingError:  # not a fault of the scene
         raise
-    except Exception as error:  # a bug: the other scenes get their answers nevertheless
+    except Exception as error:  # a bug: the other scenes get their results nevertheless
         return {"error": f"an invariant broke: {type(error).__name__}: {error}"}
 
 
@@ -83,7 +83,7 @@ def _scene(content: bytes) -> Scene:
 
 
 def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answer]:
-    """Return the answers that filters have found, by the index of the scene."""
+    """Return the results that filters have found, by the index of the scene."""
     try:
         with question.budget(), _uncollected():
             check_budget()
@@ -134,7 +134,7 @@ def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int
 
 
 def _contact(scene: TwoBodies, contacts: Contacts, k: int) -> Answer | None:
-    """Return the answer for a pair of bodies; None if arrays have not found it."""
+    """Return the result of a pair of bodies; None if arrays have not found it."""
     if contacts.exact[k]:
         return None
     if not contacts.found[k]:

@@ -1,4 +1,4 @@
-"""Answers for chunks of lines, each the work of one worker."""
+"""The results of chunks of lines, each computed by one worker."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class Chunk(NamedTuple):
 
 
 class Answered(NamedTuple):
-    """The answers for a chunk.
+    """The results of a chunk.
 
     Attributes:
         start, stop, digest: those of the chunk.
         lines: the number of its lines.
         scenes: the number of those that are not empty.
-        failures: the number of scenes that have an error for an answer.
+        failures: the number of scenes whose result is an error.
         first: the line and the error of the first of these.
         text: a line of JSON for each scene.
     """
@@ -53,11 +53,11 @@ class Answered(NamedTuple):
 
 
 class Record(NamedTuple):
-    """A chunk with its answers.
+    """A chunk with its results.
 
     Attributes:
         start, stop, digest, lines, scenes, failures, first: as in `Answered`.
-        at, size: the place and the number of bytes of its answers.
+        at, size: the place and the number of bytes of its results.
     """
 
     start: int
@@ -72,19 +72,19 @@ class Record(NamedTuple):
 
 
 def record_of(answered: Answered, at: int) -> Record:
-    """Return the record of answers that are kept at a place."""
+    """Return the record of results that are kept at a place."""
     *about, text = answered
     return Record._make([*about, at, len(text)])
 
 
 def answered(chunk: Chunk, _report: Callable[[Step], None], question: Question) -> Answered:
-    """Return the answers for a chunk; empty lines have none."""
+    """Return the results of a chunk; an empty line has no result."""
     rows = _rows(chunk)
     return _joined(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
 
 
 def one_by_one(chunk: Chunk, _step: Step | None, _why: str, question: Question) -> Answered:
-    """Return the answers for a chunk that ends its workers, each scene by itself in a process."""
+    """Return the results of a chunk that ends its workers, each scene by itself in a process."""
     work = Work(partial(_answer, question=question), _no_answer)
     found = dict(results_of(work, iter(_rows(chunk).items()), 1))
     return _joined(chunk, sorted(found.items()))

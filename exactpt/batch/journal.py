@@ -1,4 +1,4 @@
-"""The journal of a batch: the finished chunks, and the places of their answers."""
+"""The journal of a batch: the finished chunks, and the places of their results."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ VERSION = 1
 
 
 class Journal:
-    """Answers in the order in which they come, and a line about each chunk of them.
+    """Results in the order in which they come, and a line about each chunk of them.
 
-    They are in two files beside the answers' own, with ``.part`` and ``.journal`` after its name.
-    A line is written when its answers are on the disk, so whatever ends the process, the last
+    They are in two files beside the results' own, with ``.part`` and ``.journal`` after its name.
+    A line is written when its results are on the disk, so whatever ends the process, the last
     whole line is its end; the rest is cut off when the journal is opened again.
 
     Args:
-        target: the file of answers.
+        target: the file of results.
         question: the query.
         length: the length of the input, which a batch that goes on must find again.
 
@@ -50,7 +50,7 @@ class Journal:
             self._close = opened.pop_all().close
 
     def add(self, answered: Answered) -> None:
-        """Keep the answers for a chunk."""
+        """Keep the results for a chunk."""
         record = record_of(answered, self._part.tell())
         try:
             self._part.write(answered.text)
@@ -62,7 +62,7 @@ class Journal:
         self.records[record.start] = record
 
     def pass_on(self, write: Callable[[bytes], None]) -> None:
-        """Pass all answers on, in the order of their scenes."""
+        """Pass all results on, in the order of their scenes."""
         for start in sorted(self.records):
             record = self.records[start]
             self._part.seek(record.at)
@@ -74,7 +74,7 @@ class Journal:
             path.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Leave the files as they are, for another time; without any answers, remove them."""
+        """Leave the files as they are, for another time; without any results, remove them."""
         if not self.records:
             self.remove()
         self._close()

@@ -59,7 +59,7 @@ class Lines:
         longest: most bytes of a line; of a longer one the rest is left out.
 
     Raises:
-        InputError: if there is no such file.
+        InputError: if the file does not exist.
     """
 
     def __init__(self, path: Path, longest: int) -> None:

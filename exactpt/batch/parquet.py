@@ -1,4 +1,4 @@
-"""Parquet files of scenes and of answers, by pyarrow: the only module that imports it."""
+"""Parquet files of scenes and of results, by pyarrow: the only module that imports it."""
 
 from __future__ import annotations
 
@@ -124,13 +124,13 @@ _SIDES = [(f"{what}_{side}", what) for side in "ab" for what in ("body", "vertex
 def table(
     write: Callable[[bytes], None], rows: Rows | None = None
 ) -> Iterator[Callable[[bytes], None]]:
-    """Yield a function that takes lines of answers and writes them as rows of a Parquet file.
+    """Yield a function that takes lines of results and writes them as rows of a Parquet file.
 
     Its columns are those of docs/format.md, and all columns of the input but the scenes.
 
     Args:
         write: takes the bytes of the file.
-        rows: the input, if it is Parquet. It has an answer for each row, in the same order.
+        rows: the input, if it is Parquet. It has a result for each row, in the same order.
     """
     arrow = _pyarrow()
     time, text = arrow.float64(), arrow.string()
@@ -171,7 +171,7 @@ def _free(name: str, taken: Container[str], others: Container[str]) -> str:
 
 
 def _row(answer: str) -> dict[str, object]:
-    """Return the columns of an answer that are not null."""
+    """Return the columns of a result that are not null."""
     data = json.loads(answer)
     row = {"line": data["line"], "error": data.get("error"), "answer": answer}
     if "intervals" in data:

@@ -92,7 +92,7 @@ class Question:
         return plain and self._first_only() == self._defaults()
 
     def to_json(self) -> dict[str, object]:
-        """Return the options on which answers depend, as one value."""
+        """Return the options on which results depend, as one value."""
         numbers = {
             name: None if value is None else str(rational(value))
             for name in ("distance", "until", "since")
@@ -107,7 +107,7 @@ class Question:
         return within(None if most is None else clock.monotonic() + most, self.max_memory)
 
     def answer(self, scene: Scene) -> dict[str, object]:
-        """Return the answer for a scene as JSON, see docs/format.md.
+        """Return the result of a scene as JSON, see docs/format.md.
 
         Raises:
             BudgetExceeded: if time or memory is used up.

@@ -29,7 +29,7 @@ class Summary(NamedTuple):
     """The result of a batch.
 
     Attributes:
-        scenes: the number of answers.
+        scenes: the number of results.
         failures: the number of those that are an error.
         first: the line and the error of the first; empty if there is none.
     """
@@ -48,9 +48,9 @@ def run(
     scheduler: str | None = None,
     report: Callable[[int, int], None] | None = None,
 ) -> Summary:
-    """Answer a question about each scene of a file, as docs/scale.md explains.
+    """Compute the result of a query for each scene of a file, as docs/scale.md explains.
 
-    If it is interrupted or killed, the same call goes on where it stopped: until all answers are
+    If it is interrupted or killed, the same call goes on where it stopped: until all results are
     there, they are in two files beside the output. Its bytes do not depend on the number of
     workers, nor on interruptions.
 

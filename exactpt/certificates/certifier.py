@@ -2,7 +2,7 @@
 
 The only predicates of the tilings. Floats with proven bounds are tried first
 (`exactpt.certificates.coefficients`); exact arithmetic decides the rest, and
-the answer is the same.
+the result is the same.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ class Certifier:
         return self._exact_orientation(self.all[a], self.all[b], self.all[c])
 
     def filtered_orientation(self, a: VertexId, b: VertexId, c: VertexId) -> Answer:
-        """Count a certificate, and return the filter's answer, infinite if it cannot fail.
+        """Count a certificate, and return the filter's result, infinite if it cannot fail.
 
         The least of the three ids must be the first (`least_first`).
 
@@ -207,7 +207,7 @@ class Certifier:
         return answer
 
     def _any_orientation(self, a: VertexId, b: VertexId, c: VertexId) -> Answer:
-        """Return the filter's answer for vertices of any motion, see `filtered_orientation`."""
+        """Return the filter's result for vertices of any motion, see `filtered_orientation`."""
         every = self.all
         va, vb, vc = every[a], every[b], every[c]
         if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
@@ -224,7 +224,7 @@ class Certifier:
         horizon: float,
         vanishes: bool,  # noqa: FBT001 - positional for speed
     ) -> Answer:
-        """Return the filter's answer for three vertices, no copies of one another."""
+        """Return the filter's result for three vertices, no copies of one another."""
         places, i, j, k = self._vertices.places, WIDTH * a, WIDTH * b, WIDTH * c
         low, high, errors = self.now_low, self.now_high, self.errors
         if (
@@ -245,7 +245,7 @@ class Certifier:
         horizon: float,
         vanishes: bool,  # noqa: FBT001 - positional for speed
     ) -> Answer:
-        """Return the filter's answer for x(b) - x(a) of two vertices, no copies of one."""
+        """Return the filter's result for x(b) - x(a) of two vertices, no copies of one."""
         places, i, j = self._vertices.places, WIDTH * a, WIDTH * b
         low, high, errors = self.now_low, self.now_high, self.errors
         if places[i + MOTION] == OTHER_MOTION or places[j + MOTION] == OTHER_MOTION:
@@ -254,7 +254,7 @@ class Certifier:
         return coefficients.linear_x_difference(places, i, j, errors, low, high, horizon, vanishes)
 
     def orientations(self, ids: Indices) -> Answers:
-        """Return the answers of `filtered_orientation` for rows of three ids, in numpy.
+        """Return the results of `filtered_orientation` for rows of three ids, in numpy.
 
         Only those are counted that are not left open, with sign 0. Nothing may vanish now, and
         the filters must be on.
@@ -374,7 +374,7 @@ class Certifier:
         return self._exact_x_order(self.all[a], self.all[b], touching=touching)
 
     def filtered_x_order(self, a: VertexId, b: VertexId) -> Answer:
-        """Count a certificate, and return the filter's answer, as `filtered_orientation`."""
+        """Count a certificate, and return the filter's result, as `filtered_orientation`."""
         self.made += 1
         places = self._vertices.places
         is_other = OTHER_MOTION in (places[WIDTH * a + MOTION], places[WIDTH * b + MOTION])

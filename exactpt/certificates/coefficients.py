@@ -38,7 +38,7 @@ def orientation(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """Return the filter's answer for the orientation of three vertices."""
+    """Return the filter's result for the orientation of three vertices."""
     # The orientation is invariant under rotation of (a, b, c): rotate so that a and b
     # have one motion, if any two do.
     if a.ws or b.ws or c.ws:
@@ -84,7 +84,7 @@ def linear_orientation(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """Return the filter's answer for the orientation of three vertices in `Vertices.places`.
+    """Return the filter's result for the orientation of three vertices in `Vertices.places`.
 
     a, b and c are their first indices there; the motion of none is `OTHER_MOTION`.
     """
@@ -125,7 +125,7 @@ def _pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Return the answer for linear motions, a and b together: (b - a) x (c - a) is linear in t.
+    """Return the result for linear motions, a and b together: (b - a) x (c - a) is linear in t.
 
     b - a is (ux, uy), c - a is (vx, vy) + t (wx, wy).
 
@@ -158,7 +158,7 @@ def _three(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Return the answer for three linear motions: (b - a) x (c - a) is quadratic in t.
+    """Return the result for three linear motions: (b - a) x (c - a) is quadratic in t.
 
     b - a is (ux0, uy0) + t (ux1, uy1), c - a is (vx0, vy0) + t (vx1, vy1).
     """
@@ -188,7 +188,7 @@ def _any_degree(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Return the answer for translations of any degree.
+    """Return the result for translations of any degree.
 
     A coefficient is a sum of at most 2n products, each with an error of three units: 2n + 3
     units, and 4n + 8 cover the rounding of the bound.
@@ -221,7 +221,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """Return the filter's answer for x(b) - x(a)."""
+    """Return the filter's result for x(b) - x(a)."""
     if a.ws or b.ws:
         return turning.x_difference(a, b, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and b.degree <= 1:
@@ -245,7 +245,7 @@ def linear_x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """Return the filter's answer for x(b) - x(a) of two vertices in `Vertices.places`.
+    """Return the filter's result for x(b) - x(a) of two vertices in `Vertices.places`.
 
     a and b are their first indices there; the motion of none is `OTHER_MOTION`.
     """
@@ -264,7 +264,7 @@ def _linear_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Return the answer for c0 + c1 t, rounded differences; if it is rigid, for c0 alone."""
+    """Return the result for c0 + c1 t, rounded differences; if it is rigid, for c0 alone."""
     e0, e1 = 2.0 * errors[0] + K * abs(c0), K * abs(c1) + 2.0 * errors[1]
     if is_rigid:
         c1 = e1 = 0.0

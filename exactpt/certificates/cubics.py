@@ -32,7 +32,7 @@ def orientation(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for three cubic motions: (b - a) x (c - a) is of degree 6 in t.
+    """Return the result for three cubic motions: (b - a) x (c - a) is of degree 6 in t.
 
     With X[i] = |ux[i]| + |vx[i]| and Y likewise, the products of coefficient k have sizes
     that add up to at most the sum of X[i] Y[k - i], and the errors of the enclosures add
@@ -90,7 +90,7 @@ def orientation(
         e5 = x2 * f3 + x3 * f2
         e6 = x3 * f3
     if e3 == 0.0 and e4 == 0.0 and e5 == 0.0 and e6 == 0.0:
-        # There are no cubic terms, and all accelerations are equal, as under gravity.
+        # Without cubic terms, and all accelerations are equal, as under gravity.
         return filters.quadratic(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
     return sextic(
         c0, c1, c2, c3, c4, c5, c6, e0, e1, e2, e3, e4, e5, e6, now_low, now_high, horizon, at_root
@@ -107,7 +107,7 @@ def orientation_same_motion(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer where a and b share a cubic motion: (b - a) x (c - a) has degree 3."""
+    """Return the result where a and b share a cubic motion: (b - a) x (c - a) has degree 3."""
     ux, uy = b.x0 - a.x0, b.y0 - a.y0
     vx0, vx1, vx2, vx3 = c.x0 - a.x0, c.x1 - a.x1, c.x2 - a.x2, c.x3 - a.x3
     vy0, vy1, vy2, vy3 = c.y0 - a.y0, c.y1 - a.y1, c.y2 - a.y2, c.y3 - a.y3
@@ -137,7 +137,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for two different cubic motions: x(b) - x(a) is of degree 3 in t."""
+    """Return the result for two different cubic motions: x(b) - x(a) is of degree 3 in t."""
     c0, c1, c2, c3 = b.x0 - a.x0, b.x1 - a.x1, b.x2 - a.x2, b.x3 - a.x3
     e0, e1 = K * abs(c0) + 2.0 * errors[0], K * abs(c1) + 2.0 * errors[1]
     e2 = K * abs(c2) + 2.0 * errors[2]

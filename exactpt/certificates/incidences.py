@@ -10,7 +10,7 @@ segment from v to e leaves v through a face, crosses diagonals, and ends in a fa
 shrinks to a point z. Each of these faces is pinched at z into two loops. Its three corners
 are divided between them, so one loop has at most one corner besides z. The turning angles
 along a closed loop add up to 2 pi; those at z and at a corner are at most pi, all others at
-most 0. So either there is no corner, and an edge has shrunk to a point: two neighbours
+most 0. So either no corner exists, and an edge has shrunk to a point: two neighbours
 coincide. Or there is one, q, with an angle of 0, and every other angle of the loop is
 straight. So the vertices of the loop, v and both ends of e included, belong to angles
 (previous, here, next) whose orientation vanishes at t.
@@ -20,7 +20,7 @@ those at its copies. At most one copy is a corner: a face with two at one vertex
 two real corners, and no area. The turning angle at a corner is less than pi, at the other
 copies at most 0. So if the angle at the vertex becomes 0 (a turning angle of pi), the turning
 angle at the corner among the copies becomes pi and the others become 0; and if a reflex
-angle becomes straight (a turning angle of 0), all of them become 0: there is no corner among
+angle becomes straight (a turning angle of 0), all of them become 0: no corner is among
 them, or the face would have two real corners only. So each of these copies has an
 orientation that vanishes at t, or is identically zero.
 

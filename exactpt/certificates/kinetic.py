@@ -105,7 +105,7 @@ class CertificateQueue:
 
         Returns:
             All names that fail at that time, in the order in which they were first given; they
-            are no longer watched. An empty list at the end.
+            are not watched after that. An empty list at the end.
 
         Raises:
             RoundingError: see `check_rounding`.

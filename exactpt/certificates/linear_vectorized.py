@@ -20,7 +20,7 @@ BLOCK: Final = 1 << 13
 def linear_orientations(
     vertices: Vertices, ids: Indices, now_low: float, now_high: float, end: float
 ) -> Answers:
-    """Return the filter's answers, up to the time ``end``, for orientations that do not vanish now.
+    """Return the filter's results, up to the time ``end``, for orientations that do not vanish now.
 
     Unsure unless the three vertices of a row are linear, and not copies of one another.
     """
@@ -50,7 +50,7 @@ def _orientations(
     now_high: float,
     end: float,
 ) -> Answers:
-    """Return the filter's answers for rows of three ids, none of them at a root now.
+    """Return the filter's results for rows of three ids, none of them at a root now.
 
     They are computed as in `exactpt.certificates.coefficients._three`. If two vertices of a
     triple translate together they become a and b, and the higher coefficient of their

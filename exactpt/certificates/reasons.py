@@ -19,7 +19,7 @@ def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
 
     Returns:
         "asked" (the filters are switched off), "zero", "copies" (two vertices are copies of
-        one of a degenerate body: there is no filter), "range" (a number is too large or too
+        one of a degenerate body: no filter exists), "range" (a number is too large or too
         small for the filters), or "close" (not zero, but too close for floats).
     """
     if exact_only:

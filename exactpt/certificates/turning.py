@@ -42,7 +42,7 @@ def pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for the orientation of a and b of one motion, and a third vertex.
+    """Return the result for the orientation of a and b of one motion, and a third vertex.
 
     The bound. With X[i] = |x[i](a)| + |x[i](b)|, u[i] is off by at most 2 units of X[i] and Y[i],
     and d likewise by two units of the sums of its parts. w(c) d + r(c) has sums of at most four
@@ -141,7 +141,7 @@ def three(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for any three vertices, by the determinant of the rows (x, y, w).
+    """Return the result for any three vertices, by the determinant of the rows (x, y, w).
 
     The entries of a row are off by at most 7 units of its sizes s, see `_row`. With at most m
     terms in each, a minor of b and c goes through at most 2m sums and is off by 2m + 15 units of
@@ -172,7 +172,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for x(b) - x(a): the sign of x(b) w(a) - x(a) w(b).
+    """Return the result for x(b) - x(a): the sign of x(b) w(a) - x(a) w(b).
 
     A product is off by three units and goes through at most m + 1 sums.
     """

@@ -100,7 +100,7 @@ class Verdict:
     Attributes:
         ok: whether the claim holds.
         reason: why it does not, with indices of the request; empty if ``ok``.
-        stats: the figures of the answer, by name; empty if not ``ok``.
+        stats: the figures of the reply, by name; empty if not ``ok``.
     """
 
     ok: bool

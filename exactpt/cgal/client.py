@@ -23,8 +23,8 @@ _GREETING: Final = "exactpt-check 1"
 _ANSWERS: Final = {"ok", "bad", _GREETING.split(" ")[0]}
 _SIGNS: Final = {"-": -1, "0": 0, "+": 1, "<": -1, "=": 0, ">": 1}
 
-# Number of requests sent ahead of the answers. A verdict has less than 1,024 bytes, so the
-# answers to these fit into an empty pipe (at least 4,096 bytes): the program never blocks on
+# Number of requests sent ahead of the replies. A verdict has less than 1,024 bytes, so the
+# replies to these fit into an empty pipe (at least 4,096 bytes): the program never blocks on
 # writing while the client blocks on writing.
 _AHEAD: Final = 3
 
@@ -53,7 +53,7 @@ def find_program() -> Path:
 
 
 def recognise(program: Path) -> None:
-    """Check that a program is cgal_check: it answers the greeting of its protocol.
+    """Check that a program is cgal_check: it replies to the greeting of its protocol.
 
     Raises:
         InputError: if it is another program.
@@ -76,7 +76,7 @@ class CgalCheck:
         program: the path of the program; by default the result of `find_program`.
 
     Raises:
-        InputError: on construction, if there is no program; on a request, if the program
+        InputError: on construction, if the program is missing; on a request, if the program
             refuses it. The next request then starts the program anew.
         AuditError: on a request, if the program itself fails.
     """
@@ -179,7 +179,7 @@ class CgalCheck:
             errors.close()
 
     def _verdicts(self, requests: Iterable[str | Verdict]) -> Iterator[Verdict]:
-        pending: deque[Verdict | None] = deque()  # None: an answer of the program still to read
+        pending: deque[Verdict | None] = deque()  # None: a reply of the program still to read
         try:
             for request in requests:
                 if isinstance(request, Verdict):
@@ -192,7 +192,9 @@ class CgalCheck:
             while pending:
                 yield pending.popleft() or _verdict(self._read())
         finally:
-            if None in pending:  # given up half-way: unread answers must not reach later callers
+            if (
+                None in pending
+            ):  # aborted: discard unread replies so that later callers do not receive them
                 self._kill()
 
     def _ask(self, request: str) -> str:
@@ -216,7 +218,7 @@ class CgalCheck:
         try:
             line = b"" if stdout is None else stdout.readline()
         except BaseException:
-            self._kill()  # the next request would get this answer
+            self._kill()  # the next request would get this reply
             raise
         text = line.decode("ascii", "replace").rstrip("\n")
         if line.endswith(b"\n") and text.split(" ")[0] in _ANSWERS:

@@ -38,7 +38,7 @@ class ProofVerdict(NamedTuple):
 
     @property
     def whole(self) -> bool:
-        """True if the proof holds, and answers for the whole time span of the scene."""
+        """True if the proof holds, and covers the whole time span of the scene."""
         return self.accepted and not _PARTIAL.search(self.line)
 
     @property
@@ -66,7 +66,7 @@ def check_proof(
         max_seconds: maximum duration in seconds; None for no limit.
 
     Raises:
-        InputError: if there is no such program, or the file is not a proof of this
+        InputError: if the program is missing, or the file is not a proof of this
             scene.
         BudgetExceeded: if ``max_seconds``, or the program's own budget of work, is exceeded.
         AuditError: if the program itself fails.

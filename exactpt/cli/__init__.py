@@ -1,4 +1,4 @@
-"""The command line: parses arguments, calls the library, prints answers."""
+"""The command line: parses arguments, calls the library, prints results."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class _Commands(click.Group):
             if sys.stdout is not None:
                 sys.stdout.flush()  # a failure belongs to the command, not to the end of Python
             return code
-        except BrokenPipeError:  # the reader of the answer has closed the pipe
+        except BrokenPipeError:  # the reader of the output has closed the pipe
             drop_standard_output()
             return OK
         except (InputError, RoundingError, BudgetExceeded, MemoryError, OSError):
@@ -135,7 +135,7 @@ def _report_bug(error: Exception, scene: Path | None) -> None:
 
 
 def _scene_of(error: Exception, scene: Path | None) -> bytes | None:
-    """Return the scene file; the scene of the error, if there is no such file."""
+    """Return the scene file; the scene of the error if that is not a file."""
     if scene is not None and scene.is_file():
         return scene.read_bytes()
     if isinstance(error, AuditError) and error.scene is not None:

@@ -70,19 +70,19 @@ def batch(
     quiet: bool,
     max_seconds: float | None,
 ) -> int:
-    """Answer one question about each scene of a file, by default for its first contact.
+    """Compute one query for each scene of a file, by default its first contact.
 
     SCENES has a scene on each line, as JSON; or it is Parquet (.parquet) with a column "scene" of
-    such texts (needs: pip install 'exactpt[parquet]'). The answers are lines of JSON in the same
+    such texts (needs: pip install 'exactpt[parquet]'). The results are lines of JSON in the same
     order, or a Parquet file, which has the other columns of the input too; docs/format.md
-    explains them. A scene that has no answer has the
+    explains them. A scene that fails has the
     key "error", and the exit code is 2 at the end. --max-seconds, --max-memory and --max-bytes
     bound each scene.
 
     --scheduler tcp://10.0.0.1:8786 uses the workers of a Dask cluster, which need exactpt.
 
     If it is interrupted or killed, the same command goes on where it stopped. The bytes of the
-    answers do not depend on that, nor on the number of workers.
+    results do not depend on that, nor on the number of workers.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""Answers to a scene typed into a page, which runs the package in Pyodide (docs/browser.md).
+"""Results for a scene typed into a page, which runs the package in Pyodide (docs/browser.md).
 
 The page's worker calls `answer` and `picture`; texts go in and JSON comes out.
 """

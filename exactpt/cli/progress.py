@@ -29,7 +29,7 @@ SECONDS: Final = 30.0
 def progress(
     scene: Scene, label: str, *, quiet: bool = False
 ) -> Iterator[Callable[[AlgebraicNumber], None] | None]:
-    """Give the function to call with the times that a run reaches; None if there is no terminal.
+    """Give the function to call with the times that a run reaches; None without a terminal.
 
     Args:
         scene: the scene that runs; the bar is full at its end.

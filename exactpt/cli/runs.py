@@ -121,8 +121,8 @@ def collide(
       exactpt collide scene.json --all
       exactpt collide scene.json --enclosed
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
-      exactpt collide scene.json --proof answer.proof
-      exactpt collide scene.json --certificate answer.apart
+      exactpt collide scene.json --proof contact.proof
+      exactpt collide scene.json --certificate contact.apart
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
       exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """

@@ -14,7 +14,7 @@ from exactpt.errors import printable
 
 
 def print_output(*lines: str) -> None:
-    """Print lines of an answer on standard output, unprintable characters escaped."""
+    """Print lines of a result on standard output, unprintable characters escaped."""
     click.echo("\n".join(map(printable, lines)))
 
 

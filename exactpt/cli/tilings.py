@@ -202,7 +202,7 @@ def check(
     \b
     Examples:
       exactpt check scene.json
-      exactpt check answer.apart
+      exactpt check contact.apart
       exactpt check scene.json --json
       exactpt check folder
       exactpt check --write-checker check.py

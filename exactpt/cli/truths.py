@@ -27,7 +27,7 @@ _FOLDER = "exact-2d-collision-set-1"
 @click.argument("file", type=click.File("rb"), default="-", metavar="[FILE]")
 @bounded
 def oracle(file: BinaryIO, max_seconds: float | None) -> int:
-    """Answer questions, one line of JSON each, by their exact truths, in the same order.
+    """Write the exact truth of each question, one line of JSON each, in the same order.
 
     Questions come from a file or from standard input; whenever no more of them have come, all
     answers so far are written. docs/testing.md explains both. A line that is not a question has an

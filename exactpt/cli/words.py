@@ -1,4 +1,4 @@
-"""Answers in words, as the commands print them."""
+"""Results in words, as the commands print them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Comparison of two answers for the first contact of one scene."""
+"""Comparison of two first contacts of one scene."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def first_contact(
         between: pairs of names; contacts of other pairs do not count, nor do those of a body
             with itself. All if not given.
         since: a later start of the time span. Bodies that touch at it are in contact at it.
-        proof: file to write, with what an independent program needs to check the answer
+        proof: file to write, with all that an independent program needs to check the result
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
         certificate: file to write, and the scene likewise, with what another program needs to check
@@ -64,8 +64,8 @@ def first_contact(
 
     Raises:
         BudgetExceeded: if the time or memory is used up, in any thread, also before the search
-            begins; its ``reached`` is a time up to which there is no contact, or None.
-        InputError: if there is no such method, tiling or body, the scene is none, or the proof
+            begins; its ``reached`` is a time up to which no contact exists, or None.
+        InputError: if the method, tiling or a body does not exist, the scene is none, or the proof
             or certificate cannot be written.
     """
     if method not in METHODS:

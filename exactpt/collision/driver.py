@@ -210,8 +210,8 @@ class Driver:
         """Return the first contact up to a time, or None; events are not returned.
 
         Raises:
-            BudgetExceeded: if the budget is exceeded; its ``reached`` is a time up to which there
-                is no contact.
+            BudgetExceeded: if the budget is exceeded; its ``reached`` is a time up to which no
+                contact exists.
         """
         level = max((observer.listens_to for observer in self.observers), default=NOTHING)
         if self.budget.limits_events:
@@ -248,7 +248,7 @@ class Driver:
             raise BudgetExceeded("limit of events exceeded", self.reached())
 
     def reached(self) -> Fraction | None:
-        """Return a rational time, at most now, up to which there is no contact.
+        """Return a rational time, at most now, up to which no contact exists.
 
         As `passed`, but between two events without a contact the time now, if it is rational.
         """
@@ -258,7 +258,7 @@ class Driver:
         return now.low if now.is_rational else now.canonical_interval()[0]
 
     def passed(self) -> Fraction | None:
-        """Return a rational time up to which there is no contact, also during an event.
+        """Return a rational time up to which no contact exists, also during an event.
 
         None if nothing is known, see `Search.passed`.
         """

@@ -94,8 +94,8 @@ def first_contact_enclosed(
 ) -> EnclosedContact | None:
     """Return bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
 
-    The answer of `first_contact` is about the rational pieces of a motion. This one is about
-    the angle omega t, or the path of poses, itself: the first contact in the closed time span is in
+    The result of `first_contact` is about the rational pieces of a motion, this result about the
+    angle omega t, or the path of poses, itself: the first contact in the closed time span is in
     [low, high]; or there is one from low on, or none, since bodies may just miss each other
     (``high`` is None).
 
@@ -116,10 +116,10 @@ def first_contact_enclosed(
         ignoring: groups of body names. Contacts between two bodies of one group are ignored.
 
     Returns:
-        The bounds; None if there is no contact for sure.
+        The bounds; None if bodies certainly do not touch.
 
     Raises:
-        InputError: if the scene is none, or there is no body of a name.
+        InputError: if the scene is not a `Scene`, or a name is unknown.
     """
     a_scene(scene)
     with carrying(lambda: scene):

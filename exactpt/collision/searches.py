@@ -1,4 +1,4 @@
-"""The choice of the search that answers a question about the first contact."""
+"""The choice of the search for a first contact."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class ContactQuery(NamedTuple):
-    """A query for a first contact, and the way to answer it.
+    """A query for a first contact, and the method of the search.
 
     Attributes:
         method, tiling, exact_only, ignoring, after_start, between, proof, certificate: as in
             `first_contact`; the names of method and tiling are known.
-        scene_file: the bytes of the scene's file, of which a proof then speaks.
-        given: the scene with its first start, of which a certificate speaks if there is no file.
+        scene_file: the bytes of the scene's file, which a proof then names.
+        given: the scene with its first start, which a certificate names without a file.
         max_events: maximum number of events of a tiling, which "auto" then keeps; None for no
             limit.
         max_seconds: time limit, in seconds; None for no limit.
@@ -43,14 +43,14 @@ class ContactQuery(NamedTuple):
 
 
 def search_for(scene: Scene, question: ContactQuery) -> Search:
-    """Return the search that answers a question.
+    """Return the search for a query.
 
     Args:
         scene: the bodies, their motions and the time span.
         question: the question.
 
     Raises:
-        InputError: if the method cannot answer this question.
+        InputError: if the method does not support this query.
     """
     method, tiling, exact_only, groups = question[:4]
     if question.certificate is not None:
@@ -118,7 +118,7 @@ def _proved(scene: Scene, question: ContactQuery, path: Path) -> Search:
     """Return the search by a tiling that writes a proof.
 
     Raises:
-        InputError: if the answer is to be found without a tiling.
+        InputError: if the result is to be found without a tiling.
     """
     if question.method == "pairs" or question.ignoring:
         what = "groups that ignore each other" if question.ignoring else "method='pairs'"
@@ -140,7 +140,7 @@ def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) ->
     For a single first contact from a cold start the search over pairs is the faster one, also
     for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
     (`python -m benchmarks first-contact`); "auto" leaves it only where it has no boxes
-    (`PairsSearch.lacks_boxes`). Only a tiling can continue after the contact and answer questions
+    (`PairsSearch.lacks_boxes`). Only a tiling can continue after the contact and compute queries
     about the free space.
     """
     return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))

@@ -28,7 +28,7 @@ class TilingSearch:
         driver: drives the tiling.
 
     Raises:
-        InputError: if there is no such tiling, or it does not support these bodies.
+        InputError: if the tiling does not exist, or does not support these bodies.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class TilingSearch:
 
         Raises:
             BudgetExceeded: if the events or the time are used up; its ``reached`` is a time up to
-                which there is no contact.
+                which no contact exists.
         """
         with searching(None, self.passed), self._budget.held():
             contact = self.driver.start(self.name, exact_only=self._exact_only)

@@ -1,4 +1,4 @@
-"""Answers as GeoJSON features: contacts with their points, intervals with one of the bodies."""
+"""Contacts and intervals as GeoJSON features: with a point, and with one of the bodies."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def to_features(
     geometry: Literal["a", "b"] = "a",
     dates: bool = False,
 ) -> dict[str, object]:
-    """Return answers as a GeoJSON feature collection, for ``json.dump`` or geopandas.
+    """Return a GeoJSON feature collection of contacts and intervals.
 
-    ``geopandas.GeoDataFrame.from_features(collection)`` is a table of them.
+    ``json.dump`` writes it; ``geopandas.GeoDataFrame.from_features(collection)`` is its table.
 
     An interval becomes a feature with the properties a, b, start and end, and the geometry of one
     of the bodies at the start. A contact becomes a feature for each of its pairs, with the
@@ -35,14 +35,14 @@ def to_features(
     properties of a body follow as "a_..." and "b_...". Numbers are the nearest doubles.
 
     Args:
-        scene: the scene of the answers.
+        scene: the scene of the contacts and intervals.
         answers: intervals of contact, or of a distance (`Clearance.below`), and contacts.
         geometry: the body whose geometry an interval gets.
         dates: whether times are seconds since 1970-01-01T00:00:00Z, and become texts of dates,
             rounded to microseconds.
 
     Raises:
-        InputError: if an answer is neither, or one of the scene has no such body or date.
+        InputError: if a value is neither, or the scene has no such body or date.
     """
     if geometry not in ("a", "b"):
         raise InputError(f"geometry: either a or b: {shorten(geometry)}")

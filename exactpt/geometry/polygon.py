@@ -1,6 +1,6 @@
 """Polygons and chains at one instant: orientation, convexity, simplicity, containment.
 
-All answers are exact. Float boxes, rounded outward, only rule out pairs of edges.
+All results are exact. Float boxes, rounded outward, only rule out pairs of edges.
 """
 
 from __future__ import annotations

@@ -56,7 +56,7 @@ class AlgebraicNumber(RealNumber):
     """A real algebraic number: a root of an integer polynomial, or a rational.
 
     Comparisons with algebraic numbers and with rationals are exact; they refine the
-    isolating interval in place, which changes no answer. ``float(x)`` is the nearest
+    isolating interval in place, which changes no result. ``float(x)`` is the nearest
     double. Equal numbers have equal hashes, whatever their polynomials. (A string compares
     as the number it denotes, but has the hash of a string.)
     """

@@ -32,7 +32,7 @@ def any_degree(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for sum(c[i] t^i), whose leading coefficients may be 0."""
+    """Return the result for sum(c[i] t^i), whose leading coefficients may be 0."""
     n = len(c)
     while n > 1 and c[n - 1] == 0.0 and e[n - 1] == 0.0:
         n -= 1
@@ -56,7 +56,7 @@ def linear(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for c0 + c1 t.
+    """Return the result for c0 + c1 t.
 
     With the true coefficients c0 + d0, c1 + d1, |d0| <= e0, |d1| <= e1 < |c1|, and
     root = fl(-c0 / c1), |root - r| <= U |r| for r = -c0 / c1:
@@ -81,7 +81,7 @@ def linear(
                 return (-s, INFINITY, INFINITY)
             return (-s, low, root + error)
         return UNSURE
-    # There is no root up to the horizon if the constant term dominates.
+    # No root exists up to the horizon if the constant term dominates.
     reach = max(abs(now_low), abs(now_high), abs(horizon))
     if INFINITY > abs(c0) > (e0 + (abs(c1) + e1) * reach) * SLACK + TINY:
         return (1 if c0 > 0.0 else -1, INFINITY, INFINITY)
@@ -100,7 +100,7 @@ def quadratic(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for c0 + c1 t + c2 t^2.
+    """Return the result for c0 + c1 t + c2 t^2.
 
     Discriminant D = c1^2 - 4 c0 c2 with error
         eD = e1 (2|c1| + e1) + 4 (|c0| e2 + (|c2| + e2) e0) + 4U (c1^2 + 4 |c0 c2|):
@@ -194,7 +194,7 @@ def _near_alone(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for a quadratic whose other root, if any, is of size at least ``reach``.
+    """Return the result for a quadratic whose other root, if any, is of size at least ``reach``.
 
     ``s`` is the sign of the slope at the root in [low, high]. That is the sign of c1: with
     s = sgn(c1) the root is t = (-c1 + s sqrt(D)) / (2 c2), so c1 + 2 c2 t = s sqrt(D). (For

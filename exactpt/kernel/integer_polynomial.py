@@ -194,7 +194,7 @@ def _is_square_free_at_a_point(f: IntPoly) -> bool:
     A common factor h, primitive and not constant, divides both over the integers (Gauss), so
     h(N) divides both values at N. The roots of f, and so those of h, are at most 2^bits in
     size where all coefficients are below that (Cauchy), so |h(N)| >= N - 2^bits > N / 2 for
-    N = 2^width below. A smaller gcd of the values proves that there is no h; without one,
+    N = 2^width below. A smaller gcd of the values proves that no h exists; without one,
     the gcd is larger only by chance.
     """
     width = max([c.bit_length() for c in f]) + SLACK

@@ -1,4 +1,4 @@
-"""Common to all float filters: the type of their answers and the model of rounding.
+"""Common to all float filters: the type of their results and the model of rounding.
 
 The standard model: the relative error of a sum, difference, product, quotient or square
 root of doubles is at most the unit roundoff U, unless it overflows or underflows.
@@ -9,7 +9,7 @@ root of doubles is at most the unit roundoff U, unless it overflows or underflow
   differences have none). The guards of each filter bound the growth of that error, so
   that it ends below `TINY`, which every bound contains.
 
-So no filter assumes anything about its arguments: out of range, the answer is "unsure".
+So no filter assumes anything about its arguments: out of range, the result is "unsure".
 
 The model is that of IEEE 754 with its default attributes: rounding to nearest and gradual
 underflow. A thread can change both (``fesetround``, the bits FTZ and DAZ of MXCSR), and then
@@ -23,7 +23,7 @@ no bound here holds:
   claimed for scaled data near 2^-1074.
 
 Wider bounds would cover some filters, not those that rely on exact differences, nearest doubles
-or neighbours. So `check_rounding` refuses such a thread instead; the answers of a float filter
+or neighbours. So `check_rounding` refuses such a thread instead; the results of a float filter
 are for those who have called it since they last ran code of others.
 
 Source: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,

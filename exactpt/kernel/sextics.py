@@ -58,7 +58,7 @@ def sextic(
     now_low: float, now_high: float, horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:  # fmt: skip
-    """Return the answer for c0 + c1 t + ... + c6 t^6.
+    """Return the result for c0 + c1 t + ... + c6 t^6.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
     and cut to a quarter after a failure.

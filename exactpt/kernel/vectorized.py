@@ -1,7 +1,7 @@
 """The filters of degree 1 and 2 for many polynomials at once, in numpy.
 
 These are the operations of `exactpt.kernel.filters` in the same order, so its proofs hold
-here: arrays of doubles round as single ones do. The answers are those of the scalar
+here: arrays of doubles round as single ones do. The results are those of the scalar
 filters, bit for bit; an early return there is a mask here.
 
 They pay off from about 50 polynomials on, and are 6 to 8 times faster for thousands.
@@ -40,7 +40,7 @@ def linears(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the answers for c0 + c1 t: see `exactpt.kernel.filters.linear`."""
+    """Return the results for c0 + c1 t: see `exactpt.kernel.filters.linear`."""
     gap = abs(c1) - e1
     sloped = (gap > SMALL) & (gap < INFINITY)
     root = -c0 / c1
@@ -74,7 +74,7 @@ def quadratics(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the answers for c0 + c1 t + c2 t^2: see `exactpt.kernel.filters.quadratic`."""
+    """Return the results for c0 + c1 t + c2 t^2: see `exactpt.kernel.filters.quadratic`."""
     square = c1 * c1
     product = 4.0 * c0 * c2
     d = square - product
@@ -146,7 +146,7 @@ def _near_alone(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the answers with one root alone: see `exactpt.kernel.filters._near_alone`."""
+    """Return the results with one root alone: see `exactpt.kernel.filters._near_alone`."""
     alone = (-reach < low) & (high < reach) & (-reach < now_low) & (now_high < reach)
     past = at_root | (high <= now_low)
     before = alone & past & (horizon < reach)

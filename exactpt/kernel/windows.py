@@ -32,7 +32,7 @@ def polynomial(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Return the answer for sum(c[i] t^i) of degree 1 or more.
+    """Return the result for sum(c[i] t^i) of degree 1 or more.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
     and cut to a quarter after a failure. The last window ends at the horizon, from which

@@ -183,7 +183,7 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
 
     Their doubles should be relative to it (`straight_pieces`): the nearest double of a coordinate
     is off by U times the coordinate, not by U times the distances between bodies. The point is
-    where the first vertex of the first body is at time 0. It changes no answer of a filter that
+    where the first vertex of the first body is at time 0. It changes no result of a filter that
     uses differences of positions alone.
 
     Returns:

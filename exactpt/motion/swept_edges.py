@@ -100,7 +100,7 @@ class SweptEdges:
             self._read_images()
 
     def _replace_images(self, i: int) -> bool:
-        """Read the enclosures of a body that has entered a piece; false if there is no room."""
+        """Read the enclosures of a body that has entered a piece; false if they do not fit."""
         moving = self.vertices.bodies[i]
         images = [self.vertices.all[v].image for v in moving.ring]
         first = int(moving.ring[0])  # ids are numbered in order

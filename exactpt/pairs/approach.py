@@ -106,7 +106,7 @@ def first_within(
             between the intervals that the bodies, with all their parts, span on that axis. To
             leave it out for two bodies means "max", and is deprecated.
         distance_squared: the square of the distance, instead of it, so that the square root of
-            a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
+            a rational number can be given; for the Euclidean norm. (Of rounded bodies it must
             be the square of a rational number.)
         between: pairs of names, for a question without names; other pairs do not count.
         ignoring: groups of body names, for a question without names; two bodies of one group
@@ -116,7 +116,7 @@ def first_within(
         The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
 
     Raises:
-        InputError: if there is no such body or norm, the distance is negative, or a body is
+        InputError: if a body or the norm does not exist, the distance is negative, or a body is
             rounded and the norm is "max".
     """
     a_scene(scene)

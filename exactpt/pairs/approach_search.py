@@ -143,7 +143,7 @@ class ApproachSearch:
         With m the middle of a box and h half its diagonal, a point of the edge is within
         max(h_a, h_b) of a point of the segment m_a m_b. So the distance is at least that of m_v
         from this segment, less h_v + max(h_a, h_b). All is computed relative to m_v, of size at
-        most L, say; each of the few operations errs by at most u times its result, which is at
+        most some L; each of the few operations errs by at most u times its result, which is at
         most 4 L^2 before the square root and 4 L after it: 64 u L covers them all, and 64 u
         times the largest coordinate the rounding of the middles.
         """

@@ -211,7 +211,7 @@ def clearance_of_two(scene: Scene, a: str, b: str) -> Clearance:
     """Return the distance of two bodies over the time span of a scene.
 
     Raises:
-        InputError: if there is no such body, or both are the same.
+        InputError: if a body does not exist, or both are the same.
     """
     first, second = two_bodies(scene, a, b)
     now = AlgebraicNumber(scene._start)

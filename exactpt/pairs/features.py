@@ -133,8 +133,8 @@ class FeaturePair:
     def first_time(self, squared: QQ, begin: AlgebraicNumber, until: QQ) -> AlgebraicNumber | None:
         """Return the first time in (begin, until] at which the squared distance has a value.
 
-        The foot of the perpendicular is on the edge at that time. None if there is no such time,
-        or the distance of the line has this value for all t; if that is 0, the vertex enters the
+        The foot of the perpendicular is on the edge at that time. None without such a time, or
+        if the distance of the line has this value for all t; if that is 0, the vertex enters the
         edge at one of its ends.
         """
         f = self.at_distance(squared)

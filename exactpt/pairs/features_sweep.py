@@ -126,7 +126,7 @@ class PairsSearch:
 
         Raises:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
-                there is no contact.
+                no contact exists.
         """
         with searching(self._deadline, self.passed):
             return self._first_contact()

@@ -58,7 +58,7 @@ class ContactInterval:
 def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
     """Return all maximal closed intervals of the time span in which two bodies intersect.
 
-    The answer does not depend on the order in which the bodies are named.
+    The result does not depend on the order in which the bodies are named.
 
     >>> from exactpt import Body, Scene, Translation
     >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
@@ -72,7 +72,7 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
         b: the name of another body.
 
     Raises:
-        InputError: if there is no such body, or both are the same.
+        InputError: if a body does not exist, or both are the same.
     """
     two_bodies(scene, a, b)
     bodies = [body for body in scene.bodies if body.name in (a, b)]
@@ -105,7 +105,7 @@ def contacts(
         ignoring: groups of body names; contacts of two bodies of one group do not count.
 
     Raises:
-        InputError: if the scene is none, or there is no body of a name.
+        InputError: if the scene is not a `Scene`, or a name is unknown.
     """
     a_scene(scene)
     selection = Selection(scene, between, ignoring)

@@ -121,7 +121,7 @@ def _across(a: Floats, b: Floats, low: Floats, high: Floats) -> None:
 def times_between(begin: Floats, end: Floats, w: Floats) -> tuple[Floats, Floats]:
     """Return bounds of the times t with begin <= w t <= end, where begin <= end.
 
-    The first bound is infinite if there is no such time, as w is 0. NaN stands for no bound.
+    The first bound is infinite without such a time, as w is 0. NaN stands for no bound.
     """
     enter, leave = begin / w, end / w
     enter, leave = np.minimum(enter, leave), np.maximum(enter, leave)

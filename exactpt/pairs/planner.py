@@ -54,7 +54,7 @@ class Planner:
     def first_contact(self, shape: Body | Iterable[VertexLike], motion: Motion) -> Contact | None:
         """Return the first contact of a shape with an obstacle or with itself, or None.
 
-        The answer is that of `exactpt.first_contact` for the scene of the obstacles and the
+        The result is that of `exactpt.first_contact` for the scene of the obstacles and the
         shape as its last body, apart from contacts without the shape.
 
         Args:

@@ -51,7 +51,7 @@ class SelectedSearch:
         pairs: number of pairs of bodies that have been compared.
 
     Raises:
-        InputError: if there is no body of a name, or a pair is not one of two bodies.
+        InputError: if a name is unknown, or a pair is not one of two bodies.
     """
 
     name = None
@@ -86,7 +86,7 @@ class SelectedSearch:
         }
 
     def passed(self) -> None:
-        """No time up to which there is no contact is known before the end of the search."""
+        """Before the end of the search, no time is known up to which bodies are apart."""
 
     def run_to_contact(self) -> Contact | None:
         """Return the first contact that counts in the closed time span; None if there is none.

@@ -32,7 +32,7 @@ class Selection:
         group: the group number of each body; a body in no group has a number of its own.
 
     Raises:
-        InputError: if there is no body of a name, or a pair is not one of two bodies.
+        InputError: if a name is unknown, or a pair is not one of two bodies.
     """
 
     __slots__ = ("_between", "_ignoring", "group", "named")
@@ -92,7 +92,7 @@ def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
     """Return the group number of each body; a body in no group has a number of its own.
 
     Raises:
-        InputError: if there is no body of a name, or it is in two groups, or a group is a text.
+        InputError: if a name is unknown, or it is in two groups, or a group is a text.
     """
     if isinstance(ignoring, str):
         raise InputError(f"ignoring: groups of names, not the text {shorten(ignoring)}")

@@ -41,7 +41,7 @@ def initial_touches(
 ) -> tuple[list[Touch], list[tuple[int, int]]]:
     """Return all incidences at the start, and the pairs of bodies (as indices) that share a point.
 
-    The list of pairs is empty if and only if there is no contact at the start. There are no
+    The list of pairs is empty if and only if no contact exists at the start. There are no
     self-contacts: a scene with a polygon that is not simple at the start is refused. Rounded
     bodies have incidences if they touch and do not overlap.
 

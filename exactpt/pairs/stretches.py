@@ -32,7 +32,7 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     """Return two different bodies of a scene by their names, in the order of these.
 
     Raises:
-        InputError: if the scene is none, there is no such body, or both are the same.
+        InputError: if the scene is not a `Scene`, a body does not exist, or both are the same.
     """
     a_scene(scene)
     first, second = scene.body(a), scene.body(b)

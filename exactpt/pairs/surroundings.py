@@ -61,7 +61,7 @@ class Surroundings:
         others: the names of all other bodies, in the order of the scene.
 
     Raises:
-        InputError: if there is no such body, or no second body.
+        InputError: if the body does not exist, or is the only one.
     """
 
     def __init__(self, scene: Scene, name: str) -> None:
@@ -80,7 +80,7 @@ class Surroundings:
         """Return the distance from one other body as a function of time.
 
         Raises:
-            InputError: if there is no such body, or it is the same one.
+            InputError: if the other body does not exist, or is the same.
         """
         if other not in self._found:
             self._found[other] = clearance_of_two(self._scene, self.name, other)
@@ -174,7 +174,7 @@ def clearance(scene: Scene, a: str, b: str | None = None) -> Clearance | Surroun
         b: the name of another body; if it is not given, all others.
 
     Raises:
-        InputError: if there is no such body, or both are the same.
+        InputError: if a body does not exist, or both are the same.
     """
     a_scene(scene)
     return Surroundings(scene, a) if b is None else clearance_of_two(scene, a, b)

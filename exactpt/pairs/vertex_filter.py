@@ -67,7 +67,7 @@ def _smaller_root(
 
     With errors of the coefficients, that of the discriminant D = b^2 - a c is at most
     b_error (2 |b| + b_error) + (a + a_error) c_error + |c| a_error, and rounding; the root is
-    (-b - sqrt(D)) / a. Where a may be 0, there is no root of size ``times`` or less if c is larger
+    (-b - sqrt(D)) / a. Where a may be 0, no root of size ``times`` or less exists if c is larger
     than 2 |b| times that: a t^2 is not negative.
     """
     a_error, b_error, c_error = (x * SLACK + TINY for x in (a_error, b_error, c_error))

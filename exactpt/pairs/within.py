@@ -69,7 +69,8 @@ def asked_distance(
     """Return the norm, and the distance in it; the square of a Euclidean one.
 
     Raises:
-        InputError: if there is no such norm, or not one distance that is not negative.
+        InputError: if the norm does not exist, or not exactly one distance is given, which is
+            not negative.
     """
     if norm is None:
         raise InputError(f"a norm has to be named: {', '.join(NORMS)}")

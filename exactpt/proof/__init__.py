@@ -1,4 +1,4 @@
-"""Proofs of answers, which a small independent program can verify (docs/proofs.md)."""
+"""Proofs of first contacts, which a small independent program can verify (docs/proofs.md)."""
 
 from exactpt.proof.certified import certificate_of, certify, certify_rows
 from exactpt.proof.written import Proof, prove, write_proof

@@ -1,4 +1,7 @@
-"""Certificates of answers by any search: bodies apart up to L, in contact by H (docs/proofs.md)."""
+"""Certificates of first contacts, by any search (docs/proofs.md).
+
+Bodies are apart up to a time L, and two are in contact by a time H.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +60,7 @@ def certify(
 
     Args:
         scene: the scene.
-        distance: a number >= 0; if it is not 0, the answer is the first time at which two bodies
+        distance: a number >= 0; if it is not 0, the result is the first time at which two bodies
             are within this distance, by the Euclidean norm. So a distance less than the least
             one in the time span has a certificate that all stay farther apart.
         at: a time, at which alone bodies are shown to be farther apart than the distance.
@@ -69,7 +72,7 @@ def certify(
         The certificate, with the contact; if a distance or a time is given, ``contact`` is None.
 
     Raises:
-        InputError: if the scene is none, there is no such body or time, no pair counts, a
+        InputError: if the scene is none, a body or time does not exist, no pair counts, a
             coordinate has a degree above 64, a body is inside another body at that time, or the
             first contact is one of a body with itself.
         BudgetExceeded: if bodies come too near to each other before the contact, or are not
@@ -118,7 +121,7 @@ def certificate_of(scene: Scene, contact: Contact | None, file: bytes | None = N
 
 
 def certify_rows(contacts: Contacts) -> Proof:
-    """Return the certificates of all answers of `exactpt.arrays.first_contacts`, in one file.
+    """Return the certificates of all results of `exactpt.arrays.first_contacts`, in one file.
 
     Its scene file has a line for each pair, the scene of its two bodies. A pair that is refused,
     or whose contact has no certificate, is "open": nothing is shown of it.
@@ -139,7 +142,7 @@ def certify_rows(contacts: Contacts) -> Proof:
 
 @final
 class CertifiedSearch:
-    """A search for the first contact, with a certificate of its answer.
+    """A search for the first contact, with a certificate of its result.
 
     Args:
         search: the search.
@@ -173,7 +176,7 @@ class CertifiedSearch:
 
 @final
 class _Certificate:
-    """The certificate of an answer about the pairs of bodies that count."""
+    """The certificate of a first contact of the pairs of bodies that count."""
 
     def __init__(self, scene: Scene, file: bytes, selection: Selection, distance: Fraction) -> None:
         refuse_degrees(scene.bodies)

@@ -40,7 +40,7 @@ def beside(path: Path) -> Path:
 
 @final
 class ProofRun(TilingSearch):
-    """A search for the first contact by a tiling, which generates the proof of its answer.
+    """A search for the first contact by a tiling, which generates the proof of its result.
 
     Args:
         scene: the scene.
@@ -123,7 +123,7 @@ class ProofRun(TilingSearch):
 class Part(Observer):
     """The lines of a proof from a time on, but the header.
 
-    The last event is held back, since there is no line for one at the end.
+    The last event is held back, since an event at the end has no line.
 
     Args:
         kinetic: the tiling, between two events.
@@ -158,7 +158,7 @@ class Part(Observer):
         self._put(self._maker.contact(tiling.now, self.watch.names(), touches))
 
     def none(self, end: QQ) -> None:
-        """Put the last lines, if there is no contact up to a time."""
+        """Put the last lines, without a contact up to a time."""
         if self._held is not None and self._held.time.compare_rational(end) < 0:
             self._release()
         self._put(self._maker.none(end))

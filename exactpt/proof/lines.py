@@ -81,7 +81,7 @@ class Lines:
         return f"contact {start} {start} {what}"
 
     def none(self, end: QQ) -> Iterator[str]:
-        """Yield the last lines, if there is no contact."""
+        """Yield the last lines without a contact."""
         yield from self.renewals(AlgebraicNumber(end))
         yield "none"
 

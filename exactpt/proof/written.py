@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Proof(NamedTuple):
-    """An answer with its proof, or its certificate (`certify`), in memory.
+    """A first contact with its proof, or its certificate (`certify`), in memory.
 
     Attributes:
         contact: the first contact, or None.
@@ -34,7 +34,7 @@ class Proof(NamedTuple):
 
         Returns:
             the proved statement, a text with the attributes ``until`` and ``whole`` (whether
-            it answers for the whole time span of the scene).
+            it covers the whole time span of the scene).
 
         Raises:
             AuditError: if a line of it does not hold.
@@ -78,7 +78,7 @@ def prove(
         exact_only: whether the float filters are switched off.
 
     Raises:
-        InputError: if the scene is none, there is no such tiling, or it does not support these
+        InputError: if the scene is none, the tiling does not exist, or does not support these
             bodies, or a coordinate has a degree above 64, which no checker takes.
     """
     a_scene(scene)

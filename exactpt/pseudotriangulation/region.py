@@ -53,7 +53,7 @@ class Region:
 
     Args:
         mesh: the mesh; the edges are removed from it at once.
-        faces: one half-edge of every face; none if there are no edges yet.
+        faces: one half-edge of every face; none before the first edge.
         gone: the edges to be removed, none of which borders another face.
 
     Attributes:

@@ -14,7 +14,7 @@ from exactpt.kernel.numbers import QQ, nearest_float
 class Nodes:
     """The positions of nodes as the nearest doubles, relative to the first node, in a grid.
 
-    No answer depends on the grid: a walk from any node ends in the cell that contains the point.
+    No result depends on the grid: a walk from any node ends in the cell that contains the point.
 
     Args:
         points: the positions.

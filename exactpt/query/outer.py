@@ -3,7 +3,7 @@
 The region between the convex hull and a large rectangle is triangulated. A shortest path
 between points inside the rectangle never bends at its corners. The rectangle may however
 influence which homotopy class crosses the fewest diagonals; so it is the smallest of a fixed
-series that contains the points of the query, and no answer depends on earlier queries.
+series that contains the points of the query, and no result depends on earlier queries.
 """
 
 from __future__ import annotations

@@ -226,7 +226,7 @@ class FreeSpace:
         tiling a mixed tiling is built here.
 
         Raises:
-            InputError: if there is no such body, or it has several parts; or if a mixed tiling
+            InputError: if the body does not exist, or has several parts; or if a mixed tiling
                 must be built, and bodies have been added, removed or given new motions since this
                 space was made.
         """
@@ -257,7 +257,7 @@ class FreeSpace:
         about to touch an edge is joined to an end of it.
 
         Raises:
-            InputError: if there is no such body.
+            InputError: if the body does not exist.
         """
         index, plane = self._index(body), self._plane
         m = plane.map

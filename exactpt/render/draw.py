@@ -58,8 +58,7 @@ def draw(
     ``done`` with the number of frames of a film that are drawn, and of all.
 
     Raises:
-        InputError: if the suffix is not in `ENDINGS`, there is no contact to draw, or there are
-            no such bodies.
+        InputError: if the suffix is not in `ENDINGS`, or no contact or body to draw exists.
         TimeRangeError: if there is nothing to draw at that time.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """

@@ -62,7 +62,7 @@ def write_movie(
 
     Raises:
         InputError: if Pillow or imageio-ffmpeg is not installed; the message has the command to
-            install them. If there are no frames, or more than 100,000.
+            install them. Without frames, or if there are more than 100,000.
     """
     fps = RATE if fps is None else fps
     count = round(rational(SECONDS if seconds is None else seconds) * rational(fps))

@@ -43,7 +43,7 @@ class TileSpan(NamedTuple):
     """A tile after step ``first`` until step ``last`` (None: to the end).
 
     ``nodes`` are in counter-clockwise order; ``corners`` are the three convex ones; ``inside``
-    tells whether the tile is part of a body; ``place`` gives the body whose relative hull
+    is true if the tile is part of a body; ``place`` gives the body whose relative hull
     contains it, and its level in the tree.
     """
 

@@ -374,8 +374,8 @@ class Scene:
             fps: frames of a film in a second (20).
 
         Raises:
-            InputError: if the suffix is unknown, a library is missing, or there is no contact
-                or body to draw.
+            InputError: if the suffix is unknown, a library is missing, or no contact or
+                body to draw exists.
             TimeRangeError: if there is nothing to draw at that time.
         """
         when = at if at is None or at == "contact" else rational(at)

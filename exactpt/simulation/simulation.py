@@ -73,7 +73,7 @@ class Simulation:
 
     Raises:
         BudgetExceeded: if the time or memory is used up before the run begins.
-        InputError: if the scene is none, there is no such tiling, it does not support these bodies,
+        InputError: if the scene is none, the tiling does not exist or does not support the bodies,
             a bound is not a number >= 0, or the folder contains proofs or cannot be made.
     """
 
@@ -179,7 +179,7 @@ class Simulation:
         """Process the events of the next time at which there are any.
 
         Returns:
-            The events; an empty list if there are no more, and then the current time is the end.
+            The events; an empty list after the last one, and then the current time is the end.
 
         Raises:
             BudgetExceeded: if ``max_events``, ``max_seconds`` or ``max_memory`` is exceeded.
@@ -246,7 +246,7 @@ class Simulation:
                 number of vertices, if its shape changes in another way.
 
         Raises:
-            InputError: if there is no such body, a vertex would jump (the message names both
+            InputError: if a body does not exist, a vertex would jump (the message names both
                 positions), or now is not rational or is the end of the time span.
         """
         self._run.change(lambda mutable: mutable.set_motions(plans))
@@ -273,7 +273,7 @@ class Simulation:
         around it. The tiling of points is rebuilt in O(n log n).
 
         Raises:
-            InputError: if there is no such body, or now is not rational or is the end of the time
+            InputError: if the body does not exist, or now is not rational or is the end of the time
                 span.
         """
         self._run.change(lambda mutable: mutable.remove(body))

@@ -31,7 +31,7 @@ def tile_at(
         max_seconds: see `Simulation`.
 
     Raises:
-        InputError: if there is no such tiling, or it does not support these bodies.
+        InputError: if the tiling does not exist, or does not support these bodies.
         TimeRangeError: if the time is outside the span, or not before the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """

@@ -179,7 +179,7 @@ def check(
             also while a counterexample is shrunken; a family without such questions is left out.
 
     Raises:
-        InputError: if ``toi`` is not a function, there is no such family, the tolerance or the
+        InputError: if ``toi`` is not a function, a family does not exist, the tolerance or the
             number of questions is negative, or ``accept`` refuses all questions.
     """
     return check_subject(_PLANE, toi, cases, seed, families, tolerance, accept)

@@ -79,7 +79,7 @@ def pairs_in_motion(family: str | None = None) -> SearchStrategy[Question]:
             ties, far from the origin. If not given: polygons and chains of any kind.
 
     Raises:
-        InputError: if there is no such family.
+        InputError: if the family does not exist.
     """
     if family is None:
         times = st.tuples(st.just(0.0), st.sampled_from([1.0, 4.0, 16.0]))
@@ -96,7 +96,7 @@ def scenes(family: str | None = None) -> SearchStrategy[Scene]:
             knows (several). If not given: any of the latter.
 
     Raises:
-        InputError: if there is no such family.
+        InputError: if the family does not exist.
     """
     if family in FAMILIES:
         return pairs_in_motion(family).map(lambda question: question.scene)
@@ -115,7 +115,7 @@ def space_queries(kind: Kind, family: str | None = None) -> SearchStrategy[Space
             vertices with coordinates as `coordinates` draws them.
 
     Raises:
-        InputError: if there is no such kind or family.
+        InputError: if the kind or family does not exist.
     """
     if family is None:
         make_query(kind, "generic")  # refuses unknown kinds

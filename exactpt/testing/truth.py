@@ -22,7 +22,7 @@ class Truth(NamedTuple):
     """The first contact of two bodies, "a" and "b".
 
     Attributes:
-        time: the exact time; None if there is no contact.
+        time: the exact time; None without a contact.
         kind: as in `exactpt.Contact`; None without a contact.
         pair: the first incidence as JSON (docs/format.md), without its point and normal; None if
             there is none.

@@ -84,7 +84,7 @@ class Clock:
         self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
 
     def forbid_retreat(self) -> None:
-        """Exclude a retreat: there is no contact now, and changes follow that stay."""
+        """Exclude a retreat: now is not a contact, and changes follow that stay."""
         self._undo = None
 
     def retreat(self, grid: QQ) -> QQ:
@@ -107,7 +107,7 @@ class Clock:
         At the end of the time span they are beyond it: trajectories continue there.
 
         Raises:
-            AuditError: if the next failure is not after now, so that there is no such time.
+            AuditError: if the next failure is not after now, so that no such time exists.
         """
         now, following, later = self.certifier.exact_now, self.next_number(), self.certifier.end
         if now.compare_rational(later) >= 0:

@@ -1,7 +1,7 @@
 """Isolated events: an angle of vertices in linear translation that fails alone, by doubles.
 
 An event is processed here if doubles decide all of it before anything changes: that it is the
-only first one, that there is no contact, that no angle beside it is straight, and which edge
+only first one, that no contact is there, that no angle beside it is straight, and which edge
 slides. Otherwise it is left to the engine. The signs after it may still be left open by the
 filter, or be violated: `CertifiedMesh.certify` decides them exactly, and the engine repairs.
 """

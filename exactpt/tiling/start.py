@@ -71,7 +71,7 @@ def tiling_for_contact(scene: Scene, name: str) -> str:
     """Return the given name; instead of "auto", the tiling with the fewest events.
 
     Raises:
-        InputError: if there is no such tiling.
+        InputError: if the tiling does not exist.
     """
     auto = name == catalogue.AUTO
     points = not auto or _are_points(scene.bodies)
@@ -91,7 +91,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     the end, and "mixed" otherwise.
 
     Raises:
-        InputError: if there is no such tiling, it is for points and a body is not one, or a body
+        InputError: if the tiling does not exist, is for points and a body is not one, or a body
             is rounded.
     """
     bodies, end = scene.bodies, scene._end

@@ -28,7 +28,7 @@ def results_on(
         seconds: the time of all; None for no limit.
 
     Raises:
-        InputError: if ``distributed`` is missing, or no scheduler answers.
+        InputError: if ``distributed`` is missing, or no scheduler replies.
     """
     try:
         from distributed import as_completed

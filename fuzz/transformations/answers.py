@@ -526,7 +526,7 @@ QUESTIONS: Final[Mapping[str, Question]] = {
         ("Planner.first_contact",), _planner, "the contact, if the shape is one body in both"
     ),
     "arrays": Question(("arrays.first_contacts",), _arrays, "found, the time, whether initial"),
-    "free segment": Question(("FreeSpace.is_free",), _is_free, "the answer"),
+    "free segment": Question(("FreeSpace.is_free",), _is_free, "free or not"),
     "location": Question(
         ("FreeSpace.locate",), _locate, "free or not; the body, the vertex or the edge"
     ),

@@ -13,7 +13,7 @@ ABOUT: dict[str, Any] = {
     "sweeps that do not turn, tMax 1. "
     "It seeks the time at which the distance is linearSlop = 0.005, within a quarter of it; "
     "e_overlapped is taken as a contact at the start, e_failed as a failure. In single precision, "
-    "so only numbers that it represents are asked, and only sizes for which it is tuned.",
+    "so only numbers that it represents are used, and only sizes for which it is tuned.",
     "promises": [
         [("Compute the upper bound on time before two shapes penetrate. Time is represented as a "
          "fraction between [0,tMax]. This uses a swept separating axis and may miss some "

@@ -10,7 +10,7 @@ export const about = {
     "relative to the first body, which is a static polygon (or segment) about its first vertex; the fraction " +
     "that the callback is given. The module exports no b2TimeOfImpact. It stops at a distance of " +
     "linearSlop = 0.005, within a quarter of it. In single precision, so only numbers that it " +
-    "represents are asked, and only sizes for which it is tuned.",
+    "represents are used, and only sizes for which it is tuned.",
   promises: [
     [
       "Box2D has been tuned to work well with moving shapes between 0.1 and 10 meters.",

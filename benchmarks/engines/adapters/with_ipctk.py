@@ -11,7 +11,7 @@ ABOUT: dict[str, Any] = {
     "install": "pip install ipctk",
     "asked": "`point_edge_ccd` of each vertex of one body and each edge of the other, with "
     "min_distance 0 (`point_point_ccd` if there is no edge); the least time of impact. A step of "
-    "IPC begins without intersections: bodies that meet at the start are not asked about.",
+    "IPC begins without intersections: bodies in contact at the start are left out.",
     "takes": {
         "shapes": ["convex", "simple", "chain", "segment", "point"],
         "motion": "linear",

@@ -9,7 +9,7 @@ export const about = {
     "`TimeOfImpact` of two polygons (or edges), each about its first vertex, with sweeps that do " +
     "not turn, tMax 1. It seeks the time at which the distance is Settings.linearSlop = 0.005, within a quarter of it; " +
     "e_overlapped is taken as a contact at the start, e_failed as a failure. Only sizes for which " +
-    "Box2D is tuned are asked.",
+    "Box2D is tuned are used.",
   promises: [
     [
       "Compute the upper bound on time before two shapes penetrate. Time is represented as a " +

@@ -11,7 +11,7 @@ ABOUT: dict[str, Any] = {
     "install": "pip install pymunk",
     "asked": "A space without gravity, each body with its velocity, 1000 steps; the time of the "
     "step in which `begin` is called. Vertices are given about the middle of their body, as the "
-    "documentation asks. It detects collisions at the end of a step, and knows no time between; "
+    "documentation requires. It detects collisions at the end of a step and no time between; "
     "each step rounds the places of bodies once.",
     "promises": [
         ["begin: Two shapes just started touching for the first time this step.",

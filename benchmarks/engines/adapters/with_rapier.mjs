@@ -7,7 +7,7 @@ export const about = {
   install: "npm install @dimforge/rapier2d-compat",
   asked:
     "`castShape` of two convex polygons (or segments), each about its first vertex, with targetDistance 0, maxToi the span, " +
-    "stopAtPenetration true. In single precision, so only numbers that it represents are asked; " +
+    "stopAtPenetration true. In single precision, so only numbers that it represents are used; " +
     "a distance of 2^-20 of the largest coordinate is taken as its rounding.",
   promises: [
     [

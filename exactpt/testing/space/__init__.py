@@ -3,7 +3,7 @@
 `vertex_face` and `edge_edge` return the exact first contact of one query whose vertices move
 linearly during [0, 1]; `vertex_face_array` and `edge_edge_array` decide many queries of doubles.
 `check_vertex_face` and `check_edge_edge` compare a function with the truth over `FAMILIES` of hard
-queries. This is an oracle for tests: there are no bodies, scenes or broad phases in space.
+queries. This is an oracle for tests, without bodies, scenes or broad phases in space.
 """
 
 from exactpt.testing.space.checking import (

@@ -1,6 +1,6 @@
 """First contacts of many queries in space at once: a float filter, then exact arithmetic.
 
-The filter decides that there is no contact. All its conditions are about vectors d between a
+The filter decides that no contact exists. All its conditions are about vectors d between a
 vertex of one set and a vertex of the other: the sets share a point at t if and only if the origin
 is in the convex hull of the d(t), which are (1 - t) d(0) + t d(1).
 
@@ -99,7 +99,7 @@ class SpaceContacts:
         """Return the exact contact of query i, as `vertex_face` and `edge_edge` do.
 
         Raises:
-            IndexError: if there is no such query.
+            IndexError: if the query does not exist.
             InputError: if the query is refused.
         """
         k = range(len(self))[i]

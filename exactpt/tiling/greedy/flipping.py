@@ -119,7 +119,7 @@ class FlippingRules(Rules):
         self._restore_greedy(edges)
 
     def _restore_greedy(self, edges: list[HalfEdge]) -> None:
-        """Flip the diagonals that are no longer greedy, and certify shadow edges again.
+        """Flip the diagonals that have ceased to be greedy, and certify shadow edges again.
 
         Args:
             edges: even half-edges in increasing order: those of changed tiles, body edges

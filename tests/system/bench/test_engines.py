@@ -222,7 +222,7 @@ def test_the_page_the_table_and_the_reproducers(planted, tmp_path, monkeypatch):
     assert "> It is planted. (its docstring)" in page
     assert f"Wrong: {late[0]['family']}: 1 late" in page
     assert "[late_late.py](late_late.py)" in page
-    assert "No answer is wrong." in page
+    assert "No result is wrong." in page
 
 
 # JavaScript

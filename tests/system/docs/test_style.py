@@ -22,11 +22,11 @@ PATTERNS = {
     ),
     "'then' at the end of a clause: at that time": r"\bthen[.;,]|\bthen$",
     "'for ever': for all times, identically": r"\bfor ever\b",
-    "a verb of speech: call, report, return": (
-        r"\b(asks?|asked|tells?|told|says?|said|answered)\b"
+    "a word of speech (ask, tell, answer): call, report, return, result": (
+        r"\b(asks?|asked|tells?|told|says?|said|answers?|answered)\b"
     ),
-    "'is none', 'is no X': is not a": (
-        r"\b(that|which) (is|are) none\b|(?<!there )\b(is|are) no [a-z]+\b"
+    "'is none', 'is no X', 'there is no X': is not a, does not exist, without": (
+        r"\b(that|which) (is|are) none\b|\b(is|are) no [a-z]+\b"
     ),
     "meet: touch, intersect, coincide": r"\b(meets?|met)\b",
     "another one, other one: repeat the noun": r"\b(another|other) one\b",
