@@ -15,7 +15,7 @@ from math import lcm
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic import FINE, AlgebraicNumber
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     evaluate,
@@ -63,6 +63,17 @@ def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
     if len(common) > 1:
         p = quotient(p, common)
     return _root_near(_norm_in_y(p, n, d), lambda: _range(n, d, t))
+
+
+def quotient_range(n: IntPoly, d: IntPoly, t: AlgebraicNumber, close: QQ) -> tuple[QQ, QQ]:
+    """Return bounds of n(t) / d(t), which is not negative; d does not vanish at t.
+
+    They differ by at most a given part of the upper one, unless t is already known to 2^-100.
+    """
+    low, high = _range(n, d, t)
+    while high - low > close * high and t._high - t._low > FINE:
+        low, high = _range(n, d, t)
+    return low, high
 
 
 def square_root(y: AlgebraicNumber) -> AlgebraicNumber:

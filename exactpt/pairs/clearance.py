@@ -17,23 +17,26 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, cmp_to_key
+from functools import cached_property, cmp_to_key, lru_cache
 from itertools import zip_longest
 from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.algebraic_value import lowest_terms, quotient_at, square_root
+from exactpt.kernel.algebraic_value import quotient_at, quotient_range, square_root
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
     evaluate,
     multiply,
+    negate,
+    positive_remainder,
+    quotient,
     scale,
     subtract,
 )
-from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, shorten, show
+from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, power_of_two, rational, shorten, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import nearest_root_less
 from exactpt.motion.body import Body
@@ -44,6 +47,8 @@ from exactpt.pairs.near_features import ENOUGH, NearFeatures
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene
 
+CLOSE: Final = power_of_two(-30)
+"""Width, as a part of the upper one, of the bounds by which most squared distances are compared."""
 IN_VAIN: Final = 5
 """Number of halvings in a row, each leaving more than three quarters, after which they end."""
 
@@ -198,9 +203,14 @@ class Clearance:
     def minimum(self) -> Minimum:
         """The least distance in the time span, and the first time at which it occurs."""
         best: tuple[AlgebraicNumber, AlgebraicNumber] | None = None
+        places = []
         for piece in self.pieces:
-            for time in _candidates(piece):
-                value = quotient_at(_poly(piece.numerator), _poly(piece.denominator), time)
+            n, d = _poly(piece.numerator), _poly(piece.denominator)
+            places += [(n, d, t, quotient_range(n, d, t, CLOSE)) for t in _candidates(piece)]
+        most = min(high for *_, (_, high) in places)
+        for n, d, time, (low, _) in places:
+            if low <= most:
+                value = quotient_at(n, d, time)
                 if best is None or value.compare(best[1]) < 0:
                     best = time, value
         assert best is not None  # noqa: S101 - there is a piece
@@ -303,7 +313,7 @@ def _windows(near: NearFeatures, begin: QQ, end: QQ) -> Iterator[tuple[QQ, QQ, l
 
 
 def _piece(start: AlgebraicNumber, end: AlgebraicNumber, pair: FeaturePair) -> ClearancePiece:
-    n, d = (tuple(map(int, f)) for f in lowest_terms(*pair.squared))
+    n, d = (tuple(map(int, f)) for f in pair.lowest)
     return ClearancePiece(start, end, pair.features, n, d)
 
 
@@ -319,8 +329,27 @@ def _nearest_after(pairs: list[FeaturePair], now: AlgebraicNumber) -> FeaturePai
 
 def _lead(g: FeaturePair, f: FeaturePair) -> IntPoly:
     """Return a polynomial with the sign of the difference of the squared distances of g and f."""
-    (n, d), (m, e) = g.squared, f.squared
-    return subtract(multiply(n, e), multiply(m, d))
+    (n, d), (m, e) = g.lowest, f.lowest
+    if len(d) < len(e):
+        return negate(_lead(f, g))
+    over = _over(d, e) if len(e) > 1 else None
+    if over is None:
+        return subtract(multiply(n, e), multiply(m, d))
+    by, rest = over
+    return subtract(scale(n, by), multiply(m, rest))
+
+
+@lru_cache(64)
+def _over(d: IntPoly, e: IntPoly) -> tuple[ZZ, IntPoly] | None:
+    """Return c > 0 and c d / e, both in integers, if e divides d; neither is ever negative.
+
+    Pairs of features of rigid bodies have few denominators.
+    """
+    if positive_remainder(d, e):
+        return None
+    over = quotient(d, e)
+    factor = QQ(d[-1], e[-1] * over[-1])
+    return ZZ(factor.denominator), scale(over, ZZ(factor.numerator))
 
 
 def _first_change(

@@ -16,6 +16,7 @@ from functools import cached_property
 from typing import NamedTuple, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic_value import lowest_terms
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     add,
@@ -79,6 +80,11 @@ class FeaturePair:
             return _squared_length(_vector(end, v)), multiply(w, w)
         d = self.at_distance(QQ(0))
         return multiply(d, d), multiply(multiply(v.w, v.w), _squared_length(self._along))
+
+    @cached_property
+    def lowest(self) -> tuple[IntPoly, IntPoly]:
+        """`squared` without a common factor; of rigid bodies of a much lower degree."""
+        return lowest_terms(*self.squared)
 
     @cached_property
     def limits(self) -> tuple[IntPoly, ...]:

@@ -84,7 +84,8 @@ class NearFeatures:
         n, m = len(self._stretch.first), len(self._stretch.second)
         first, second = np.ones(n, np.bool_), np.ones(m, np.bool_)
         if self._translates:
-            boxes, there = self._during(self._stretch.begin, self._stretch.end)
+            begin, end = self._stretch.begin, self._stretch.end
+            boxes, there = self._during(begin, end), self._between(begin, end)
             x, y = there[:, 0], there[:, 2]
             i, j = 0, n
             for _ in range(ENOUGH):  # vertices that are near each other
@@ -117,11 +118,14 @@ class NearFeatures:
         ends = np.concatenate([e.reshape(-1, 2)[i], f[g]])
         return np.concatenate([n + j, k]), ends[:, 0], ends[:, 1]
 
-    def _during(self, begin: QQ, end: QQ) -> tuple[Boxes, Boxes]:
-        """Return the boxes of all vertices during an interval, and in its middle."""
-        low, high = self._frame.time(begin)[0], self._frame.time(end)[1]
-        middle = 0.5 * (low + high)
-        return self._boxes.during(low, high), self._boxes.during(middle, middle)
+    def _during(self, begin: QQ, end: QQ) -> Boxes:
+        """Return the boxes of all vertices during an interval."""
+        return self._boxes.during(self._frame.time(begin)[0], self._frame.time(end)[1])
+
+    def _between(self, begin: QQ, end: QQ) -> Boxes:
+        """Return the boxes of all vertices in the middle of an interval."""
+        middle = 0.5 * (self._frame.time(begin)[0] + self._frame.time(end)[1])
+        return self._boxes.during(middle, middle)
 
     def pairs(self, numbers: Indices) -> list[FeaturePair]:
         """Return the pairs with these numbers, each made once."""
@@ -158,11 +162,11 @@ class NearFeatures:
         check_budget()
         at = np.searchsorted(self.all, numbers)
         v, a, b = (ends[at] for ends in self._ends)
-        boxes, there = self._during(low, high)
+        boxes = self._during(low, high)
         kept = np.flatnonzero(_may_be_least(boxes, v, a, b))
         if self._translates and len(kept) > ENOUGH:
             v, a, b = v[kept], a[kept], b[kept]
-            along, bound = _beyond(boxes, there, v, a, b)
+            along, bound = _beyond(boxes, self._between(low, high), v, a, b)
             side = np.where(v < a, -1.0, 1.0)
             gaps = np.minimum(side * (along[v] - along[a]), side * (along[v] - along[b]))
             kept = kept[~(gaps > bound)]

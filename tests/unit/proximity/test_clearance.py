@@ -6,10 +6,20 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, InputError, Scene, Translation, clearance, contact_intervals, distance
+from exactpt import (
+    Body,
+    InputError,
+    Rigid,
+    Scene,
+    Translation,
+    clearance,
+    contact_intervals,
+    distance,
+)
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.algebraic_value import quotient_at, square_root
 from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.pairs import clearance as module
 from fuzz.questions.tiny import pair_scene
 
 BOX = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
@@ -38,6 +48,29 @@ def test_a_least_distance_at_an_irrational_time():
     t, least = float(gap.minimum.time), float(gap.minimum)
     assert gap(t) == pytest.approx(least, abs=1e-12)
     assert all(gap(Fraction(k, 16)) >= least for k in range(144))
+
+
+def test_values_that_are_surely_larger_are_not_computed(monkeypatch):
+    """Of a turning box, only the least of the distances at the ends of pieces is exact."""
+    computed = []
+    monkeypatch.setattr(module, "quotient_at", lambda *a: computed.append(a) or quotient_at(*a))
+    turning = Rigid([0, Fraction(1, 2)], pivot=(9, 1), x=[0, Fraction(-1, 7)])
+
+    gap = gap_of(Body("other", [(8, 0), (10, 0), (10, 3)], turning), time=(0, 9))
+    least = gap.minimum
+
+    assert len(gap.pieces) > 4
+    assert len(computed) == 1
+    assert all(gap.squared(Fraction(k, 16)) >= least.squared for k in range(144))
+
+
+def test_distances_of_turning_bodies_are_in_lowest_terms():
+    """At one denominator the difference of two squared distances is of degree 4, not 8."""
+    turning = Rigid([0, Fraction(1, 2)], pivot=(9, 1))
+
+    gap = gap_of(Body("other", [(8, 0), (10, 0), (10, 3)], turning), time=(0, 9))
+
+    assert max(len(piece.start._polynomial) for piece in gap.pieces) == 5
 
 
 def test_where_bodies_meet_the_distance_is_zero():
