@@ -38,7 +38,7 @@ COMPILED = [
     "exactpt/kernel/sextics.py",
     "exactpt/kernel/windows.py",
     "exactpt/motion/course.py",
-    "exactpt/motion/image.py",
+    "exactpt/motion/float_track.py",
     "exactpt/motion/ring_order.py",
     "exactpt/motion/vertex.py",
     "exactpt/motion/vertices.py",

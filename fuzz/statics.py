@@ -102,10 +102,10 @@ def audit_places(vertices: Vertices) -> None:
     """
     enclosures = Enclosures(vertices.frame)
     for moving in vertices.bodies:
-        images = enclosures.of_piece(moving.body._piece_after(moving.since))
+        float_tracks = enclosures.of_piece(moving.body._piece_after(moving.since))
         for v in moving.ring:
-            image = images[vertices.all[v].index]
-            expected = image.x0, image.y0, image.x1, image.y1
+            float_track = float_tracks[vertices.all[v].index]
+            expected = float_track.x0, float_track.y0, float_track.x1, float_track.y1
             known = [vertices.places[WIDTH * v + k] for k in range(4)]
             if repr(known) != repr(list(expected)):  # NaN stands for no enclosure
                 raise AuditError(f"the coefficients of vertex {v} are {known}, not {expected}")

@@ -232,7 +232,7 @@ class Certifier:
             or places[j + MOTION] == OTHER_MOTION
             or places[k + MOTION] == OTHER_MOTION
         ):
-            u, v, w = self.all[a].image, self.all[b].image, self.all[c].image
+            u, v, w = self.all[a].float_track, self.all[b].float_track, self.all[c].float_track
             return coefficients.orientation(u, v, w, errors, low, high, horizon, vanishes)
         return coefficients.linear_orientation(
             places, i, j, k, errors, low, high, horizon, vanishes
@@ -249,7 +249,7 @@ class Certifier:
         places, i, j = self._vertices.places, WIDTH * a, WIDTH * b
         low, high, errors = self.now_low, self.now_high, self.errors
         if places[i + MOTION] == OTHER_MOTION or places[j + MOTION] == OTHER_MOTION:
-            u, v = self.all[a].image, self.all[b].image
+            u, v = self.all[a].float_track, self.all[b].float_track
             return coefficients.x_difference(u, v, errors, low, high, horizon, vanishes)
         return coefficients.linear_x_difference(places, i, j, errors, low, high, horizon, vanishes)
 
@@ -335,7 +335,7 @@ class Certifier:
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
-                if u.image.motion == v.image.motion and u.image.motion >= 0:
+                if u.float_track.motion == v.float_track.motion and u.float_track.motion >= 0:
                     continue
                 p, q = u.track, v.track
                 dx, dy = difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)

@@ -16,7 +16,7 @@ from mypy_extensions import i64
 from exactpt.certificates import cubics, turning
 from exactpt.kernel import filters
 from exactpt.kernel.rounding import U
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.vertices import MOTION
 
 K: Final = 8.0 * U
@@ -29,9 +29,9 @@ bound itself.
 
 
 def orientation(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,
@@ -179,9 +179,9 @@ def _three(
 
 
 def _any_degree(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,
@@ -213,8 +213,8 @@ def _any_degree(
 
 
 def x_difference(
-    a: Image,
-    b: Image,
+    a: FloatTrack,
+    b: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,
@@ -271,7 +271,7 @@ def _linear_difference(
     return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
 
 
-def _differences(p: list[float], q: list[float], a: Image, b: Image) -> list[float]:
+def _differences(p: list[float], q: list[float], a: FloatTrack, b: FloatTrack) -> list[float]:
     """Return the coefficients of q - p; for vertices of one translation, the constant alone."""
     if a.motion == b.motion and a.motion >= 0:
         return [q[0] - p[0]]

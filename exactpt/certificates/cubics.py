@@ -17,15 +17,15 @@ from typing import Final
 from exactpt.kernel import filters
 from exactpt.kernel.rounding import SLACK, Answer, U
 from exactpt.kernel.sextics import sextic
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 
 K: Final = 8.0 * U
 
 
 def orientation(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,
@@ -98,9 +98,9 @@ def orientation(
 
 
 def orientation_same_motion(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,
@@ -129,8 +129,8 @@ def orientation_same_motion(
 
 
 def x_difference(
-    a: Image,
-    b: Image,
+    a: FloatTrack,
+    b: FloatTrack,
     errors: list[float],
     now_low: float,
     now_high: float,

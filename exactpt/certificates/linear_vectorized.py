@@ -31,8 +31,12 @@ def linear_orientations(
     if others:
         places = places.copy()
         for v in others:
-            image = vertices.all[VertexId(v)].image
-            places[v, MOTION] = image.motion if image.degree <= 1 and not image.ws else OTHER_MOTION
+            float_track = vertices.all[VertexId(v)].float_track
+            places[v, MOTION] = (
+                float_track.motion
+                if float_track.degree <= 1 and not float_track.ws
+                else OTHER_MOTION
+            )
     blocks = [
         _orientations(places, nodes, errors, ids[first : first + BLOCK], now_low, now_high, end)
         for first in range(0, max(1, len(ids)), BLOCK)

@@ -9,7 +9,7 @@ import numpy as np
 from exactpt.indices import VertexId
 from exactpt.kernel.doubles import Floats, view
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 
@@ -42,7 +42,7 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     single.move_to(low, high)
     for k in np.flatnonzero(places[:, MOTION] == OTHER_MOTION).tolist():
         vertex = vertices.all[VertexId(k)]
-        if vertex.image.degree > 1 or vertex.image.ws:
+        if vertex.float_track.degree > 1 or vertex.float_track.ws:
             single.find(vertex)
             x[k], y[k], error[k] = vertex.x, vertex.y, vertex.error
     unknown = ~(np.isfinite(x) & np.isfinite(y) & np.isfinite(error))
@@ -78,8 +78,10 @@ class Positions:
         """
         if vertex.seen is not self._now:
             places, at = self._vertices.places, WIDTH * vertex.id
-            if places[at + MOTION] == OTHER_MOTION and (vertex.image.degree > 1 or vertex.image.ws):
-                self._find_any(vertex, vertex.image)
+            if places[at + MOTION] == OTHER_MOTION and (
+                vertex.float_track.degree > 1 or vertex.float_track.ws
+            ):
+                self._find_any(vertex, vertex.float_track)
             else:
                 vertex.x, vertex.y, vertex.error = linear_position(
                     places[at],
@@ -93,11 +95,11 @@ class Positions:
                 )
             vertex.seen = self._now
 
-    def _find_any(self, vertex: Vertex, image: Image) -> None:
-        x, dx = self._value(image.xs)
-        y, dy = self._value(image.ys)
-        if image.ws:
-            w, dw = self._value(image.ws)
+    def _find_any(self, vertex: Vertex, float_track: FloatTrack) -> None:
+        x, dx = self._value(float_track.xs)
+        y, dy = self._value(float_track.ys)
+        if float_track.ws:
+            w, dw = self._value(float_track.ws)
             x, dx = _quotient(x, dx, w, dw)
             y, dy = _quotient(y, dy, w, dw)
         vertex.x, vertex.y, vertex.error = x, y, min(INFINITY, max(dx, dy))

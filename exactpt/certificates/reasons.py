@@ -28,4 +28,4 @@ def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
         return "zero"
     if len({(v.body, v.index) for v in vertices}) < len({v.id for v in vertices}):
         return "copies"
-    return "range" if any(isnan(v.image.x0) for v in vertices) else "close"
+    return "range" if any(isnan(v.float_track.x0) for v in vertices) else "close"

@@ -13,8 +13,8 @@ def rigid(bodies: list[MovingBody], a: Vertex, b: Vertex, c: Vertex) -> bool:
     or a segment alone turn with it: their orientation is 0 only where the segment shrinks
     to a point, which has an event of its own (`exactpt.tiling.pieces`).
     """
-    motion = a.image.motion
-    if motion >= 0 and motion == b.image.motion and motion == c.image.motion:
+    motion = a.float_track.motion
+    if motion >= 0 and motion == b.float_track.motion and motion == c.float_track.motion:
         if a.is_copy_of(b) or a.is_copy_of(c):
             turns_apart = _turns_apart(bodies, a)
         else:
@@ -31,12 +31,12 @@ def _turns_apart(bodies: list[MovingBody], copy: Vertex) -> bool:
     that deforms may turn.
     """
     moving = bodies[copy.body]
-    return bool(copy.image.ws) if moving.body.size == 1 else moving.deforms
+    return bool(copy.float_track.ws) if moving.body.size == 1 else moving.deforms
 
 
 def keeps_x_order(bodies: list[MovingBody], a: Vertex, b: Vertex) -> bool:
     """Return True if two vertices keep the difference of their x coordinates for all times."""
     if a.offset is not None and bodies[a.body].deforms:
         return False  # its displacements turn
-    p, q = a.image, b.image
+    p, q = a.float_track, b.float_track
     return p.motion == q.motion and p.motion >= 0 and not p.ws

@@ -1,6 +1,6 @@
 """The polynomials of certificates where a body turns, as doubles with error bounds.
 
-A vertex that turns is at p(t) + r(t) / w(t), a pivot and an arm (`exactpt.motion.image.Arm`);
+A vertex that turns is at p(t) + r(t) / w(t), a pivot and an arm (`exactpt.motion.float_track.Arm`);
 one that only translates is at p(t), its arm is 0 and w = 1. The relative error of each
 coefficient is at most one unit u = 2^-53.
 
@@ -22,7 +22,7 @@ from typing import Final, TypeAlias
 from exactpt.kernel import filters
 from exactpt.kernel.rounding import Answer, U
 from exactpt.kernel.sextics import sextic
-from exactpt.motion.image import Arm, Image
+from exactpt.motion.float_track import Arm, FloatTrack
 
 UNIT: Final = 32.0 * U
 
@@ -34,9 +34,9 @@ Floats: TypeAlias = list[float]
 
 
 def pair(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     now_low: float,
     now_high: float,
     horizon: float,
@@ -119,11 +119,18 @@ def pair(
     )
 
 
-def _pivot(image: Image) -> Six:
+def _pivot(float_track: FloatTrack) -> Six:
     """p0, p1, p2, q0, q1, q2: the path of the pivot, or of a vertex that only translates."""
-    arm = image.arm
+    arm = float_track.arm
     if arm is None:
-        return image.x0, image.x1, image.x2, image.y0, image.y1, image.y2
+        return (
+            float_track.x0,
+            float_track.x1,
+            float_track.x2,
+            float_track.y0,
+            float_track.y1,
+            float_track.y2,
+        )
     return arm.p0, arm.p1, arm.p2, arm.q0, arm.q1, arm.q2
 
 
@@ -133,9 +140,9 @@ def _times(f0: float, f1: float, f2: float, g0: float, g1: float, g2: float) -> 
 
 
 def three(
-    a: Image,
-    b: Image,
-    c: Image,
+    a: FloatTrack,
+    b: FloatTrack,
+    c: FloatTrack,
     now_low: float,
     now_high: float,
     horizon: float,
@@ -165,8 +172,8 @@ def three(
 
 
 def x_difference(
-    a: Image,
-    b: Image,
+    a: FloatTrack,
+    b: FloatTrack,
     now_low: float,
     now_high: float,
     horizon: float,
@@ -184,24 +191,24 @@ def x_difference(
     return filters.any_degree(values, bounds, now_low, now_high, horizon, at_root)
 
 
-def _has_pivot(image: Image) -> bool:
-    return image.arm is not None or (image.degree <= 2 and not image.ws)
+def _has_pivot(float_track: FloatTrack) -> bool:
+    return float_track.arm is not None or (float_track.degree <= 2 and not float_track.ws)
 
 
-def _row(origin: Arm | None, image: Image) -> tuple[Floats, Floats, Floats, Floats]:
+def _row(origin: Arm | None, float_track: FloatTrack) -> tuple[Floats, Floats, Floats, Floats]:
     """x, y and w of a vertex, and the sizes of the terms of x and y together.
 
     They are relative to the pivot of ``origin``: w d + r as in `pair`. Without ``origin`` they
     are the coefficients of the enclosure.
     """
     if origin is None:
-        sizes = _sum(_absolute(image.xs), _absolute(image.ys))
-        return image.xs, image.ys, image.ws or ONE, sizes
-    arm = image.arm
+        sizes = _sum(_absolute(float_track.xs), _absolute(float_track.ys))
+        return float_track.xs, float_track.ys, float_track.ws or ONE, sizes
+    arm = float_track.arm
     if arm is origin:
         x, y = [arm.x0, arm.x1, arm.x2], [arm.y0, arm.y1, arm.y2]
         return x, y, [arm.w0, arm.w1, arm.w2], _sum(_absolute(x), _absolute(y))
-    p0, p1, p2, q0, q1, q2 = _pivot(image)
+    p0, p1, p2, q0, q1, q2 = _pivot(float_track)
     dx, dy = [p0 - origin.p0, p1 - origin.p1], [q0 - origin.q0, q1 - origin.q1]
     sizes = [
         abs(p0) + abs(origin.p0) + abs(q0) + abs(origin.q0),

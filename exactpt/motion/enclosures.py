@@ -14,7 +14,7 @@ from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import LARGEST, SMALLEST, U
-from exactpt.motion.image import Arm, Image, constant_error, translated
+from exactpt.motion.float_track import Arm, FloatTrack, constant_error, translated
 from exactpt.motion.normalization import Normalization, binary_exponent, combined
 from exactpt.motion.track import Turning
 
@@ -73,11 +73,11 @@ class Enclosures:
         self._common: _Common | None = None
         self.errors: list[float] = [0.0, 0.0]
 
-    def of_piece(self, piece: Piece) -> list[Image]:
+    def of_piece(self, piece: Piece) -> list[FloatTrack]:
         """Return the enclosures of the trajectories of a piece of motion."""
-        return self._translated(piece) or self.images(piece.tracks)
+        return self._translated(piece) or self.float_tracks(piece.tracks)
 
-    def _translated(self, piece: Piece) -> list[Image] | None:
+    def _translated(self, piece: Piece) -> list[FloatTrack] | None:
         """Return the enclosures of vertices that are translated, without their trajectories.
 
         None if doubles are not known, or would lose digits when they are added.
@@ -101,7 +101,7 @@ class Enclosures:
         self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(tails[0]) and _moderate(tails[1])):
             nan = [math.nan] * size
-            return [Image(nan, nan, [], motion)] * len(places[0])
+            return [FloatTrack(nan, nan, [], motion)] * len(places[0])
         units = 2.0**-sx, 2.0**-sy
         error = constant_error((places.xs, places.ys), shift, units, is_exact=is_exact)
         if error < 0.0:
@@ -124,9 +124,9 @@ class Enclosures:
         shift, *tail = self._frame.in_time([*path, *[_ZERO] * (size - len(path))])
         return shift - center, [c * power_of_two(-scale) for c in tail]
 
-    def images(self, tracks: Sequence[Track]) -> list[Image]:
+    def float_tracks(self, tracks: Sequence[Track]) -> list[FloatTrack]:
         """Return the enclosures of trajectories; fast if successive ones share their motion."""
-        images: list[Image] = []
+        float_tracks: list[FloatTrack] = []
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
         for track in tracks:
@@ -134,9 +134,9 @@ class Enclosures:
             if last is None or track.motion != last:
                 motion, last = self._number(track.motion), track.motion
                 tails = self._integer_tails(track)
-            image = None if tails is None else _integer_image(track, *tails, motion)
-            images.append(image or self._image(track, motion))
-        return images
+            float_track = None if tails is None else _integer_float_track(track, *tails, motion)
+            float_tracks.append(float_track or self._float_track(track, motion))
+        return float_tracks
 
     def _number(self, motion: Hashable) -> int:
         """Return the number of a rigid motion, as in `Track.motion`; -1 for None."""
@@ -177,7 +177,7 @@ class Enclosures:
         self.errors += [0.0] * (size + 1 - len(self.errors))
         return x + [0.0] * (size - len(x)), y + [0.0] * (size - len(y))
 
-    def _image(self, track: Track, motion: int) -> Image:
+    def _float_track(self, track: Track, motion: int) -> FloatTrack:
         x, y, w = self._frame.moved(track)
         size = max(len(x), len(y), 1)
         if len(w) > 1:
@@ -192,16 +192,16 @@ class Enclosures:
         self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(xs) and _moderate(ys) and _moderate(ws)):
             nan = [math.nan] * size
-            return Image(nan, nan, nan if ws else [], motion)
+            return FloatTrack(nan, nan, nan if ws else [], motion)
         if not ws:
             self._note_errors(x, xs)
             self._note_errors(y, ys)
-        image = Image(xs, ys, ws, motion)
+        float_track = FloatTrack(xs, ys, ws, motion)
         if isinstance(track.motion, Turning):
             common = self._common_of(track.motion)
             if common is not None:
-                image.make_arm = partial(_arm, track, common, self._frame)
-        return image
+                float_track.make_arm = partial(_arm, track, common, self._frame)
+        return float_track
 
     def _common_of(self, turning: Turning) -> _Common | None:
         """Return the common part of the arms of a motion's vertices; None if there is none."""
@@ -273,7 +273,9 @@ def _common_of(turning: Turning, frame: Normalization) -> _Common | None:
     return _Common(*constants, pivot_x, pivot_y, part_x, part_y, denominator)
 
 
-def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
+def _integer_float_track(
+    track: Track, x: list[float], y: list[float], motion: int
+) -> FloatTrack | None:
     """Return the enclosure with these higher coefficients, if it is exact; else None."""
     if track.w != _ONE:
         return None
@@ -283,7 +285,7 @@ def _integer_image(track: Track, x: list[float], y: list[float], motion: int) ->
     except OverflowError:
         return None
     if abs(x0) < INTEGERS and abs(y0) < INTEGERS:
-        return Image([x0, *x], [y0, *y], [], motion)
+        return FloatTrack([x0, *x], [y0, *y], [], motion)
     return None
 
 

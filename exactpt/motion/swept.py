@@ -14,7 +14,7 @@ from exactpt.kernel.doubles import middles
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
-    from exactpt.motion.image import Image
+    from exactpt.motion.float_track import FloatTrack
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class SweptBoxes:
     all translating vertices. Differences of positions are unchanged.
 
     Args:
-        images: the enclosures.
+        float_tracks: the enclosures.
         errors: their error bounds, see `exactpt.motion.enclosures.Enclosures`.
         drifting: whether the drift is subtracted; if not, it is 0.
 
@@ -40,13 +40,13 @@ class SweptBoxes:
     """
 
     def __init__(
-        self, images: Sequence[Image], errors: Sequence[float], *, drifting: bool = True
+        self, float_tracks: Sequence[FloatTrack], errors: Sequence[float], *, drifting: bool = True
     ) -> None:
-        size = max(image.degree for image in images) + 1
-        self._xs, self._ys, self._ws = (np.zeros((len(images), size)) for _ in range(3))
-        self._turning = np.zeros(len(images), dtype=np.bool_)
+        size = max(float_track.degree for float_track in float_tracks) + 1
+        self._xs, self._ys, self._ws = (np.zeros((len(float_tracks), size)) for _ in range(3))
+        self._turning = np.zeros(len(float_tracks), dtype=np.bool_)
         self.drift = np.zeros((2, size))
-        self.replace(0, images, errors)
+        self.replace(0, float_tracks, errors)
         straight = ~self._turning & ~np.isnan(self._xs[:, 0])
         if drifting and straight.any():
             for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
@@ -54,7 +54,9 @@ class SweptBoxes:
                 cs[~self._turning] -= drift
             self._gather()
 
-    def replace(self, first: int, images: Sequence[Image], errors: Sequence[float]) -> bool:
+    def replace(
+        self, first: int, float_tracks: Sequence[FloatTrack], errors: Sequence[float]
+    ) -> bool:
         """Replace the enclosures from number ``first`` on, if none is of a larger degree.
 
         The drift stays as it is: any will do.
@@ -63,14 +65,14 @@ class SweptBoxes:
             Whether they have been replaced.
         """
         size = self._xs.shape[1]
-        if any(image.degree >= size for image in images):
+        if any(float_track.degree >= size for float_track in float_tracks):
             return False
-        for i, image in enumerate(images, start=first):
-            rest = [0.0] * (size - 1 - image.degree)
-            self._turning[i] = bool(image.ws)
-            self._ws[i] = image.ws + rest if image.ws else 0.0
-            self._xs[i], self._ys[i] = image.xs + rest, image.ys + rest
-            if not image.ws:
+        for i, float_track in enumerate(float_tracks, start=first):
+            rest = [0.0] * (size - 1 - float_track.degree)
+            self._turning[i] = bool(float_track.ws)
+            self._ws[i] = float_track.ws + rest if float_track.ws else 0.0
+            self._xs[i], self._ys[i] = float_track.xs + rest, float_track.ys + rest
+            if not float_track.ws:
                 self._xs[i] -= self.drift[0]
                 self._ys[i] -= self.drift[1]
         self._errors = np.array([*errors, *[0.0] * size][:size])

@@ -38,7 +38,7 @@ class SweptEdges:
         body: the body of each vertex.
         ends: shape (m, 2), the vertices of each edge; a point is an edge from itself to itself.
         edge_index: the number of each edge in its body.
-        motion: the motion identity of each vertex, see `exactpt.motion.image.Image`.
+        motion: the motion identity of each vertex, see `exactpt.motion.float_track.FloatTrack`.
         deforms: for each body, whether it deforms.
         boxes: the swept boxes of the vertices.
     """
@@ -62,9 +62,9 @@ class SweptEdges:
         self._read_images()
 
     def _read_images(self) -> None:
-        images = [self.vertices.all[v].image for v in self.ids]
-        self.boxes = SweptBoxes(images, self.vertices.enclosures.errors)
-        self.motion: Indices = np.array([image.motion for image in images])
+        float_tracks = [self.vertices.all[v].float_track for v in self.ids]
+        self.boxes = SweptBoxes(float_tracks, self.vertices.enclosures.errors)
+        self.motion: Indices = np.array([float_track.motion for float_track in float_tracks])
         self.deforms = np.array([moving.deforms for moving in self.vertices.bodies])
 
     def slabs(
@@ -96,17 +96,19 @@ class SweptEdges:
         ended = [i for i, m in enumerate(self.vertices.bodies) if m.until == now]
         for i in ended:
             self.vertices.enter_piece(i, now)
-        if not all(self._replace_images(i) for i in ended):
+        if not all(self._replace_float_tracks(i) for i in ended):
             self._read_images()
 
-    def _replace_images(self, i: int) -> bool:
+    def _replace_float_tracks(self, i: int) -> bool:
         """Read the enclosures of a body that has entered a piece; false if they do not fit."""
         moving = self.vertices.bodies[i]
-        images = [self.vertices.all[v].image for v in moving.ring]
+        float_tracks = [self.vertices.all[v].float_track for v in moving.ring]
         first = int(moving.ring[0])  # ids are numbered in order
-        self.motion[first : first + len(images)] = [image.motion for image in images]
+        self.motion[first : first + len(float_tracks)] = [
+            float_track.motion for float_track in float_tracks
+        ]
         self.deforms[i] = moving.deforms
-        return self.boxes.replace(first, images, self.vertices.enclosures.errors)
+        return self.boxes.replace(first, float_tracks, self.vertices.enclosures.errors)
 
     def during(self, now: QQ, later: QQ) -> Boxes:
         """Return the boxes that the vertices sweep, normalised."""

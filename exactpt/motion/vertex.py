@@ -9,7 +9,7 @@ from mypy_extensions import i32, i64, mypyc_attr
 
 from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.ring_order import rings_of
 
 if TYPE_CHECKING:
@@ -81,8 +81,8 @@ class MovingBody:
     """
 
     __slots__ = (
-        "_bodies", "_body", "_first", "_images", "_number", "_ring", "_size", "_stage", "deforms",
-        "enclosures", "is_polygon", "is_tiled", "place", "since", "until",
+        "_bodies", "_body", "_first", "_float_tracks", "_number", "_ring", "_size", "_stage",
+        "deforms", "enclosures", "is_polygon", "is_tiled", "place", "since", "until",
     )  # fmt: skip
 
     def __init__(self, bodies: Sequence[Body], number: int, first: i64 = 0, size: i64 = 0) -> None:
@@ -100,7 +100,7 @@ class MovingBody:
         self.enclosures: Enclosures | None = None
         self._stage: Stage | None = None
         self._body: Body | None = None
-        self._images: list[Image] | None = None
+        self._float_tracks: list[FloatTrack] | None = None
 
     @property
     def body(self) -> Body:
@@ -146,14 +146,14 @@ class MovingBody:
         return self.stage.piece
 
     @property
-    def images(self) -> list[Image]:
+    def float_tracks(self) -> list[FloatTrack]:
         """The enclosure of each vertex, in the order of the scene."""
-        images = self._images
-        if images is None:
+        float_tracks = self._float_tracks
+        if float_tracks is None:
             if self.enclosures is None:
-                return [_NO_IMAGE]
-            images = self._images = self.enclosures.of_piece(self.piece)
-        return images
+                return [_NO_FLOAT_TRACK]
+            float_tracks = self._float_tracks = self.enclosures.of_piece(self.piece)
+        return float_tracks
 
     def replace(self, body: Body) -> None:
         """Be another body of the same name from now on; `enter` must follow."""
@@ -162,7 +162,7 @@ class MovingBody:
     def enter(self, t: QQ) -> Piece:
         """Enter the piece of motion just after a rational time."""
         piece = self.body._piece_after(t)
-        self.since, self._images = t, None
+        self.since, self._float_tracks = t, None
         self._stage = Stage(self._bodies, self._number, t, piece)
         self.until = piece.until
         return piece
@@ -173,7 +173,7 @@ class MovingBody:
         return rings_of(self.body, self.ring)
 
 
-_NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
+_NO_FLOAT_TRACK: Final = FloatTrack([0.0], [0.0], [], -1)
 _NO_BODY: Final = MovingBody((), -1)
 
 
@@ -215,9 +215,9 @@ class Vertex:
         return self.moving.piece
 
     @property
-    def image(self) -> Image:
+    def float_track(self) -> FloatTrack:
         """The float enclosure of its trajectory until that time."""
-        return _NO_IMAGE if self.moving.place < 0 else self.moving.images[self.index]
+        return _NO_FLOAT_TRACK if self.moving.place < 0 else self.moving.float_tracks[self.index]
 
     @property
     def track(self) -> Track:

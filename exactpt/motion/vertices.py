@@ -23,7 +23,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.infinitesimal import displacements
 from exactpt.motion.linear_rows import LinearRows, linear_rows
 from exactpt.motion.normalization import Normalization, frame_for
@@ -43,7 +43,7 @@ WIDTH: Final[i64] = 8
 """Number of doubles of a vertex in `Vertices.places`: a line of a processor's cache."""
 HORIZON: Final[i64] = 4
 MOTION: Final[i64] = 5
-"""Place of the number of the motion among them, see `Image.motion`."""
+"""Place of the number of the motion among them, see `FloatTrack.motion`."""
 OTHER_MOTION: Final[float] = -2.0
 """Number of the motion of all vertices that `Vertices.places` does not describe alone."""
 UNUSED: Final[list[float]] = [0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0]
@@ -69,7 +69,7 @@ class Vertices:
         counters: the counts of decisions about these vertices.
         frame: the normalisation of the enclosures.
         enclosures: the enclosures of the trajectories.
-        places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`; the
+        places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `FloatTrack`; the
             horizon, a double at least ``until`` of the body, normalised, infinite if that is None;
             the number of the motion. The latter is `OTHER_MOTION` unless the vertex is in linear
             translation, without infinitesimal copies, and so without other coefficients than
@@ -273,7 +273,7 @@ class Vertices:
         self.changes += 1
         moving = self.bodies[i]
         piece = moving.enter(t)
-        moving.deforms = _deforms(moving.images)
+        moving.deforms = _deforms(moving.float_tracks)
         if not self._plain and not moving.body.has_interior and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
             moved = displacements(piece.tracks, t, end)
@@ -288,15 +288,15 @@ class Vertices:
     def _set_place(self, v: VertexId, horizon: float = INFINITY) -> None:
         """Copy the trajectory of a vertex to `places`."""
         vertex, places, at = self.all[v], self.places, WIDTH * v
-        image = vertex.image
-        places[at] = image.x0
-        places[at + 1] = image.y0
-        places[at + 2] = image.x1
-        places[at + 3] = image.y1
+        float_track = vertex.float_track
+        places[at] = float_track.x0
+        places[at + 1] = float_track.y0
+        places[at + 2] = float_track.x1
+        places[at + 3] = float_track.y1
         places[at + HORIZON] = horizon
-        is_linear = image.degree <= 1 and not image.ws and vertex.offset is None
+        is_linear = float_track.degree <= 1 and not float_track.ws and vertex.offset is None
         is_used = vertex.body >= 0
-        places[at + MOTION] = float(image.motion) if is_linear and is_used else OTHER_MOTION
+        places[at + MOTION] = float(float_track.motion) if is_linear and is_used else OTHER_MOTION
 
     def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
         """Replace a body by one with the same position at a rational time.
@@ -315,15 +315,15 @@ class Vertices:
         return moving.is_tiled and not tiled
 
     def motion_of(self, v: VertexId) -> int:
-        """Return the number of the motion of a vertex, see `Image.motion`."""
+        """Return the number of the motion of a vertex, see `FloatTrack.motion`."""
         motion = self.places[WIDTH * v + MOTION]
-        return self.all[v].image.motion if motion == OTHER_MOTION else int(motion)
+        return self.all[v].float_track.motion if motion == OTHER_MOTION else int(motion)
 
     def name(self, vertex_id: VertexId) -> str:
         """Return the name of a vertex in event logs, see `Vertex.name`."""
         return self.all[vertex_id].name
 
 
-def _deforms(images: Sequence[Image]) -> bool:
-    first = images[0].motion
-    return first < 0 or any(image.motion != first for image in images)
+def _deforms(float_tracks: Sequence[FloatTrack]) -> bool:
+    first = float_tracks[0].motion
+    return first < 0 or any(float_track.motion != first for float_track in float_tracks)

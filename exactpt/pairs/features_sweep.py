@@ -118,7 +118,7 @@ class PairsSearch:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)
-        unknown = sum(math.isnan(all_vertices[v].image.x0) for v in ids)
+        unknown = sum(math.isnan(all_vertices[v].float_track.x0) for v in ids)
         return 2 * unknown * count > 3 * count + FEW
 
     def run_to_contact(self) -> Contact | None:

@@ -74,7 +74,7 @@ class NearFeatures:
         scale = max(frame.scale)  # one for both axes: distances are compared
         self._frame = Normalization(frame.center, (scale, scale), frame.origin, frame.time_scale)
         enclosures = Enclosures(self._frame)
-        self._boxes = SweptBoxes(enclosures.images([*p, *q]), enclosures.errors)
+        self._boxes = SweptBoxes(enclosures.float_tracks([*p, *q]), enclosures.errors)
         self._pairs: dict[int, FeaturePair] = {}
         self._translates = all(map(_translate, (p, q)))
 

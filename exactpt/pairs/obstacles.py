@@ -62,8 +62,8 @@ class SlabBoxes:
         for since, until in pairwise([start, *inner, end]):
             low, high = self._frame.time(since)[0], self._frame.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
-            images = self._enclosures.of_piece(body._piece_after(since))
-            swept = SweptBoxes(images, self._enclosures.errors, drifting=False)
+            float_tracks = self._enclosures.of_piece(body._piece_after(since))
+            swept = SweptBoxes(float_tracks, self._enclosures.errors, drifting=False)
             lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
             places = swept.during(lows, highs)
             boxes[during, ::2] = np.minimum(boxes[during, ::2], places[..., ::2].min(axis=1))

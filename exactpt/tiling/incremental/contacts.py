@@ -63,7 +63,7 @@ def _have_equal_x(certifier: Certifier, p: VertexId, q: VertexId) -> bool:
     if certifier.vanishes_now(p, q, X_ORDER):
         return True
     a, b = certifier.all[p], certifier.all[q]
-    f, g = a.image, b.image
+    f, g = a.float_track, b.float_track
     if not (f.ws or g.ws) and (f.x0 < g.x0 or f.x0 > g.x0 or f.x1 < g.x1 or f.x1 > g.x1):
-        return False  # equal coefficients have equal images
+        return False  # equal coefficients have equal doubles
     return not difference(a.track.x, a.track.w, b.track.x, b.track.w)

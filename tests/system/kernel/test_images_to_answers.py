@@ -86,20 +86,20 @@ def attack(seed, cases):
     for _ in range(cases):
         style, motion, tracks, frame, scene = hostile_tracks(rng)
         enclosures = Enclosures(frame)
-        images, errors = enclosures.images(tracks), enclosures.errors
+        float_tracks, errors = enclosures.float_tracks(tracks), enclosures.errors
         if rng.random() < 0.7:
             function, ask = orientation_polynomial(*tracks), coefficients.orientation
         else:
             a, b = tracks[:2]
             function, ask = difference(a.x, a.w, b.x, b.w), coefficients.x_difference
-            images = images[:2]
+            float_tracks = float_tracks[:2]
         true, end = in_frame(frame, function), rational(frame.time(scene._end)[1])
         if not any(true):
             now = *frame.time(scene._start), float(end)
-            assert ask(*images, errors, *now, at_root=False)[0] == 0
+            assert ask(*float_tracks, errors, *now, at_root=False)[0] == 0
             continue
         case = asked(rng, true, near_roots(rng, true, end), (), ())
-        said = ask(*images, errors, case.now_low, case.now_high, case.horizon, case.at_root)
+        said = ask(*float_tracks, errors, case.now_low, case.now_high, case.horizon, case.at_root)
         for key in (style, motion):
             seen[key] += 1
             decided[key] += said[0] != 0

@@ -21,16 +21,16 @@ def check_places(vertices):
     assert len(vertices.places) == WIDTH * len(vertices.all)
     count = 0
     for vertex in vertices.all:
-        place, image = place_of(vertices, vertex.id), vertex.image
-        is_plain = vertex.body >= 0 and vertex.offset is None and image.degree <= 1
-        if not is_plain or image.ws:
+        place, float_track = place_of(vertices, vertex.id), vertex.float_track
+        is_plain = vertex.body >= 0 and vertex.offset is None and float_track.degree <= 1
+        if not is_plain or float_track.ws:
             assert place[MOTION] == OTHER_MOTION
             continue
         count += 1
-        coefficients = [image.x0, image.y0, image.x1, image.y1]
+        coefficients = [float_track.x0, float_track.y0, float_track.x1, float_track.y1]
         until = vertex.moving.until
         horizon = INFINITY if until is None else vertices.frame.time(until)[1]
-        expected = [*coefficients, horizon, float(image.motion)]
+        expected = [*coefficients, horizon, float(float_track.motion)]
         assert [str(value) for value in place] == [str(value) for value in expected]
     return count
 
@@ -81,16 +81,16 @@ def test_answers_by_places_equal_those_by_images(family):
         horizon = min(certifier._end_high, *(place_of(vertices, v)[HORIZON] for v in (a, b, c)))
         now = certifier.now_low, certifier.now_high
         if not (va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc)):
-            images = va.image, vb.image, vc.image
+            float_tracks = va.float_track, vb.float_track, vc.float_track
             s, low, high = coefficients.orientation(
-                *images, certifier.errors, *now, horizon, at_root=False
+                *float_tracks, certifier.errors, *now, horizon, at_root=False
             )
             known = (s, low, high) if low <= horizon else (s, INFINITY, INFINITY)
             assert certifier.filtered_orientation(a, b, c) == known
         if not va.is_copy_of(vb):
             horizon = min(certifier._end_high, *(place_of(vertices, v)[HORIZON] for v in (a, b)))
             s, low, high = coefficients.x_difference(
-                va.image, vb.image, certifier.errors, *now, horizon, at_root=False
+                va.float_track, vb.float_track, certifier.errors, *now, horizon, at_root=False
             )
             known = (s, low, high) if low <= horizon else (s, INFINITY, INFINITY)
             assert certifier.filtered_x_order(a, b) == known

@@ -1,4 +1,4 @@
-"""Certificates of cubic motion, from the images of three points to the answer."""
+"""Certificates of cubic motion, from the float tracks of three points to the result."""
 
 import math
 import random
@@ -8,14 +8,14 @@ import pytest
 
 from exactpt.certificates import coefficients
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two, rational
-from exactpt.motion.image import Image
+from exactpt.motion.float_track import FloatTrack
 from fuzz.filter_attacks import asked, judge, times
 
 STYLES = ["free", "collinear", "together", "falling", "sparse", "near"]
 
 
 def hostile_points(rng):
-    """Three paths of degree 2 or 3, their images, and bounds on the errors of these."""
+    """Three paths of degree 2 or 3, their float tracks, and bounds on the errors of these."""
     d, grid = rng.choice([2, 3, 3]), rng.choice([2, 4, 1000, 2**26])
     thirds = rng.choice([[1], [1, 1, 3]])
 
@@ -49,14 +49,14 @@ def hostile_points(rng):
     points, motions = [points[i] for i in order], [motions[i] for i in order]
     size = power_of_two(rng.choice([0, 0, rng.randint(-60, 60)]))
     points = [tuple([x * size for x in f] for f in point) for point in points]
-    images, errors = [], [0.0, 0.0, *[0.0] * (d - 1)]
+    float_tracks, errors = [], [0.0, 0.0, *[0.0] * (d - 1)]
     for point, motion in zip(points, motions, strict=True):
         floats = [[nearest_float(x) for x in f] for f in point]
-        images.append(Image(*floats, [], motion))
+        float_tracks.append(FloatTrack(*floats, [], motion))
         for f, xs in zip(point, floats, strict=True):
             for i, (q, x) in enumerate(zip(f, xs, strict=True)):
                 errors[i] = max(errors[i], enclosing_floats(abs(q - rational(x)))[1])
-    return style, points, images, errors
+    return style, points, float_tracks, errors
 
 
 def orientation(points):
@@ -71,18 +71,18 @@ def attack(seed, cases):
     """What was decided wrongly; how many were decided, by style and question."""
     rng, wrong, decided = random.Random(seed), [], Counter()
     for _ in range(cases):
-        style, points, images, errors = hostile_points(rng)
+        style, points, float_tracks, errors = hostile_points(rng)
         roots = [QQ(rng.randint(-4, 4), rng.randint(1, 4))]
         if rng.random() < 0.7:
             function, ask = orientation(points), coefficients.orientation
         else:
-            points, images = points[:2], images[:2]
+            points, float_tracks = points[:2], float_tracks[:2]
             function = [q - p for p, q in zip(points[0][0], points[1][0], strict=True)]
             ask = coefficients.x_difference
         case = asked(rng, function, roots, (), ())
         now = case.now_low, case.now_high, case.horizon, case.at_root
-        said = ask(*images, errors, *now)
-        decided[style, len(images)] += said[0] != 0
+        said = ask(*float_tracks, errors, *now)
+        decided[style, len(float_tracks)] += said[0] != 0
         if said[0] and (not any(function) or judge(case, said)):
             wrong.append((points, case, said))
     return wrong, decided
@@ -109,9 +109,9 @@ def test_none_of_50_000_certificates_is_decided_wrongly(seed):
 
 def test_points_in_free_fall_are_asked_a_quadratic_equation():
     """One acceleration for all three: 11 - 21 t + 9 t^2."""
-    a = Image([0.0, 1.0, 0.0], [0.0, 2.0, -5.0], [], 0)
-    b = Image([3.0, -1.0, 0.0], [1.0, 1.0, -5.0], [], 1)
-    c = Image([1.0, 0.0, 0.0], [4.0, -3.0, -5.0], [], 2)
+    a = FloatTrack([0.0, 1.0, 0.0], [0.0, 2.0, -5.0], [], 0)
+    b = FloatTrack([3.0, -1.0, 0.0], [1.0, 1.0, -5.0], [], 1)
+    c = FloatTrack([1.0, 0.0, 0.0], [4.0, -3.0, -5.0], [], 2)
 
     s, low, high = coefficients.orientation(a, b, c, [0.0] * 3, 0.0, 0.0, 10.0, at_root=False)
 

@@ -1,4 +1,4 @@
-"""Float images: every coefficient within its bound, in whatever frame the scene is put."""
+"""Float tracks: every coefficient within its bound, in whatever normalization of the scene."""
 
 import math
 import random
@@ -70,11 +70,11 @@ def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
     path = track(Polynomial(x), Polynomial(y), None, None)
     enclosures = Enclosures(frame)
 
-    image = enclosures.images([path])[0]
+    float_track = enclosures.float_tracks([path])[0]
 
-    if math.isnan(image.x0):
+    if math.isnan(float_track.x0):
         return
-    for axis, (floats, f) in enumerate([(image.xs, x), (image.ys, y)]):
+    for axis, (floats, f) in enumerate([(float_track.xs, x), (float_track.ys, y)]):
         true = padded(in_frame(frame, f, axis), len(floats))
         assert len(true) == len(floats)
         for i, (a, c) in enumerate(zip(floats, true, strict=True)):
@@ -91,18 +91,18 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
     path = track(Polynomial(x), turn, w, ("turn", 1))
     enclosures = Enclosures(frame)
 
-    image = enclosures.images([path])[0]
+    float_track = enclosures.float_tracks([path])[0]
 
-    if math.isnan(image.x0) or not image.ws:
+    if math.isnan(float_track.x0) or not float_track.ws:
         return
     whole = [[exact(c) for c in part] for part in (path.x, path.y, path.w)]
     origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
     largest = max(map(abs, shifted(whole[2], origin, step)))
-    ratio = largest / Fraction(max(map(abs, image.ws)))
+    ratio = largest / Fraction(max(map(abs, float_track.ws)))
     shift = round(math.log2(ratio.numerator) - math.log2(ratio.denominator))
     whole = [[c / Fraction(2) ** shift for c in part] for part in whole]
     assert Fraction(1, 2) < largest / Fraction(2) ** shift < 2
-    for axis, floats in ((0, image.xs), (1, image.ys), (None, image.ws)):
+    for axis, floats in ((0, float_track.xs), (1, float_track.ys), (None, float_track.ws)):
         f = whole[2]
         if axis is not None:
             size = max(len(whole[axis]), len(f))
@@ -123,11 +123,11 @@ def test_bug_a_turning_track_of_doubles_is_moderate():
     motion = Rigid([0.1234567, 0.7654321], pivot=(0.9876543, -0.3456789), x=[0.1, 0.3])
     path = motion.track((Polynomial([1.2345678]), Polynomial([0.5678901])))
 
-    image = enclosures.images([path])[0]
+    float_track = enclosures.float_tracks([path])[0]
 
     assert path.bits > 150
-    assert max(image.ws) < 2.0
-    assert max(map(abs, image.xs + image.ys)) < 8.0
+    assert max(float_track.ws) < 2.0
+    assert max(map(abs, float_track.xs + float_track.ys)) < 8.0
 
 
 def test_a_center_near_the_points_keeps_doubles():
@@ -139,9 +139,9 @@ def test_a_center_near_the_points_keeps_doubles():
         enclosures = Enclosures(frame)
         tracks = [track(Polynomial([v]), Polynomial([v, 1]), None, None) for v in points]
 
-        images = enclosures.images(tracks)
+        float_tracks = enclosures.float_tracks(tracks)
 
-        assert max(abs(image.x0) for image in images) < 64.0
+        assert max(abs(float_track.x0) for float_track in float_tracks) < 64.0
         assert not any(enclosures.errors)
 
 
@@ -151,9 +151,9 @@ def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
     enclosures = Enclosures(frame)
     tiny = Polynomial([1, Fraction(1, 10**400)])
 
-    image = enclosures.images([track(tiny, Polynomial([1]), None, None)])[0]
+    float_track = enclosures.float_tracks([track(tiny, Polynomial([1]), None, None)])[0]
 
-    assert math.isnan(image.x0) or enclosures.errors[1] > 0.0
+    assert math.isnan(float_track.x0) or enclosures.errors[1] > 0.0
 
 
 def test_bug_the_errors_are_shorter_than_an_image_of_nan():
@@ -162,10 +162,10 @@ def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     enclosures = Enclosures(frame)
 
     path = track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)
-    image = enclosures.images([path])[0]
+    float_track = enclosures.float_tracks([path])[0]
 
-    assert math.isnan(image.x0)
-    assert len(enclosures.errors) >= len(image.xs)
+    assert math.isnan(float_track.x0)
+    assert len(enclosures.errors) >= len(float_track.xs)
 
 
 @given(frame=frames(), case=algebraics())
@@ -197,9 +197,9 @@ def test_ordinary_scenes_keep_their_integers(points, x, end):
     frame = frame_for(exact_points, QQ(0), QQ(end))
     enclosures = Enclosures(frame)
 
-    image = enclosures.images([track(Polynomial(x), Polynomial([7]), None, None)])[0]
+    float_track = enclosures.float_tracks([track(Polynomial(x), Polynomial([7]), None, None)])[0]
 
-    assert [value(x, Fraction(1))] == [sum(map(Fraction, image.xs), Fraction(0))]
+    assert [value(x, Fraction(1))] == [sum(map(Fraction, float_track.xs), Fraction(0))]
     assert not any(enclosures.errors)
     assert frame.time(QQ(end)) == (float(end), float(end))
 
@@ -208,12 +208,14 @@ def test_integers_are_exact_as_far_as_doubles_are():
     frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
 
-    exact_ones = enclosures.images(
+    exact_ones = enclosures.float_tracks(
         [track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None)]
     )[0]
     errors = list(enclosures.errors)
-    rounded = enclosures.images([track(Polynomial([2**53 + 1]), Polynomial([1]), None, None)])[0]
-    huge = enclosures.images([track(Polynomial([10**400]), Polynomial([1]), None, None)])[0]
+    rounded = enclosures.float_tracks(
+        [track(Polynomial([2**53 + 1]), Polynomial([1]), None, None)]
+    )[0]
+    huge = enclosures.float_tracks([track(Polynomial([10**400]), Polynomial([1]), None, None)])[0]
 
     assert exact_ones.xs == [2.0**53 - 1, -(2.0**53)]
     assert exact_ones.ys == [0.0, 0.0]
@@ -229,10 +231,12 @@ def test_tracks_of_one_body_have_one_motion():
     path, other, rest = Polynomial([1, 2]), Polynomial([7, 2]), Polynomial([1])
     tracks = [track(x, rest, None, None) for x in (path, other, rest, path)]
 
-    first, second, third, fourth = (image.motion for image in enclosures.images(tracks))
+    first, second, third, fourth = (
+        float_track.motion for float_track in enclosures.float_tracks(tracks)
+    )
 
     assert first == second == fourth != third
-    assert enclosures.images(tracks[:1])[0].motion == first
+    assert enclosures.float_tracks(tracks[:1])[0].motion == first
 
 
 def test_integer_vertices_among_others_of_one_body():
@@ -242,10 +246,10 @@ def test_integer_vertices_among_others_of_one_body():
     xs = (3, QQ(1, 2), 0, 2**60, -5)
     tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
 
-    images = enclosures.images(tracks)
+    float_tracks = enclosures.float_tracks(tracks)
 
-    assert [image.xs for image in images] == [[float(x), 7.0, 0.0] for x in xs]
-    assert [image.ys for image in images] == [[0.0, 0.0, 1.0]] * 5
+    assert [float_track.xs for float_track in float_tracks] == [[float(x), 7.0, 0.0] for x in xs]
+    assert [float_track.ys for float_track in float_tracks] == [[0.0, 0.0, 1.0]] * 5
     assert not any(enclosures.errors)
 
 
@@ -255,8 +259,10 @@ def test_the_bound_is_at_most_twice_the_largest_error():
     frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     enclosures = Enclosures(frame)
 
-    image = enclosures.images([track(Polynomial([worst]), Polynomial([0]), None, None)])[0]
+    float_track = enclosures.float_tracks(
+        [track(Polynomial([worst]), Polynomial([0]), None, None)]
+    )[0]
 
-    error = abs(Fraction(image.x0) - worst)
+    error = abs(Fraction(float_track.x0) - worst)
     assert Fraction(enclosures.errors[0]) / 4 < error <= Fraction(enclosures.errors[0])
     assert Fraction(enclosures.errors[0]) < Fraction(2001, 1000) * error

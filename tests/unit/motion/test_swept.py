@@ -36,11 +36,11 @@ def test_boxes_contain_the_vertices(bodies, begin, length):
     tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
     frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
     enclosures = Enclosures(frame)
-    images = enclosures.images(tracks)
+    float_tracks = enclosures.float_tracks(tracks)
     first, last = as_rational(begin), as_rational(begin + length)
     low, high = frame.time(first)[0], frame.time(last)[1]
 
-    swept = SweptBoxes(images, enclosures.errors)
+    swept = SweptBoxes(float_tracks, enclosures.errors)
     boxes = swept.during(low, high).tolist()
 
     for track, (x_low, x_high, y_low, y_high) in zip(tracks, boxes, strict=True):
@@ -70,7 +70,7 @@ def test_what_all_have_in_common_moves_no_box():
     frame = frame_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
     enclosures = Enclosures(frame)
 
-    swept = SweptBoxes(enclosures.images(tracks), enclosures.errors)
+    swept = SweptBoxes(enclosures.float_tracks(tracks), enclosures.errors)
 
     for i, box in enumerate(swept.during(0.0, 1000.0).tolist()):
         assert [round(v, 6) for v in box] == [3 * i, 3 * i, i, i]
@@ -87,11 +87,11 @@ def test_boxes_contain_what_underflows(bits, numerator):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
         frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
         enclosures = Enclosures(frame)
-        image = enclosures.images([power._piece_after(QQ(0)).tracks[0]])[0]
+        float_track = enclosures.float_tracks([power._piece_after(QQ(0)).tracks[0]])[0]
         low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
 
-        rest = enclosures.images([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
-        swept = SweptBoxes([image, rest, rest], enclosures.errors)
+        rest = enclosures.float_tracks([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
+        swept = SweptBoxes([float_track, rest, rest], enclosures.errors)
         x_low, x_high, *_ = swept.during(low, high)[0].tolist()
 
         assert x_low <= t**degree <= x_high
@@ -106,8 +106,8 @@ def test_boxes_are_tight():
     assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
     rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
-    images = enclosures.images([line, turn, rest, rest])
-    boxes = SweptBoxes(images, enclosures.errors).during(0.0, 1.0)
+    float_tracks = enclosures.float_tracks([line, turn, rest, rest])
+    boxes = SweptBoxes(float_tracks, enclosures.errors).during(0.0, 1.0)
 
     assert [round(v, 9) for v in boxes[0].tolist()] == [0, 1, -2, 0]
     x_low, x_high, y_low, y_high = boxes[1].tolist()
@@ -116,15 +116,15 @@ def test_boxes_are_tight():
 
 
 def test_what_cannot_be_bounded_has_the_whole_plane():
-    """Coefficients beyond what images hold, and denominators that may vanish for all we know."""
+    """Coefficients out of the range of doubles, and denominators that are not surely positive."""
     huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300]))._piece_after(QQ(0)).tracks[0]
     spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
     rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
     enclosures = Enclosures(frame)
-    images = enclosures.images([huge, spin, rest])
+    float_tracks = enclosures.float_tracks([huge, spin, rest])
 
-    boxes = SweptBoxes(images, enclosures.errors).during(-50.0, 50.0).tolist()
+    boxes = SweptBoxes(float_tracks, enclosures.errors).during(-50.0, 50.0).tolist()
 
     inf = float("inf")
     assert boxes[0] == boxes[1] == [-inf, inf, -inf, inf]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from exactpt import Body, Pieces, Rigid, Translation
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.image import CANCELLING
+from exactpt.motion.float_track import CANCELLING
 from exactpt.motion.normalization import Normalization, frame_for
 
 ordinary = st.floats(-1e6, 1e6) | st.integers(-1000, 1000).map(float)
@@ -33,9 +33,9 @@ def frames(draw):
     return Normalization((x, y), scale, rational(origin), draw(st.integers(-20, 20)))
 
 
-def contents(images):
+def contents(float_tracks):
     """The digits of all enclosures; as text, in which undefined numbers are equal."""
-    return [repr((i.xs, i.ys, i.ws, i.degree, i.motion)) for i in images]
+    return [repr((i.xs, i.ys, i.ws, i.degree, i.motion)) for i in float_tracks]
 
 
 IDENTITY = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
@@ -57,12 +57,14 @@ def test_enclosures_without_trajectories(points, x, y, frame):
     piece = Body("b", points, Translation(x, y), closed=False)._piece_after(QQ(0))
     short, long = Enclosures(frame), Enclosures(frame)
 
-    ours, expected = short.of_piece(piece), long.images(piece.tracks)
+    ours, expected = short.of_piece(piece), long.float_tracks(piece.tracks)
 
     with_shift = any(c.denominator & (c.denominator - 1) for c in map(Fraction, [*x, *y]))
     if not with_shift and frame.origin == 0 == frame.center[0] == frame.center[1]:
         assert repr(contents(ours)) == repr(contents(expected))  # NaN is NaN, 0.0 is not -0.0
-        if not all(math.isnan(image.x0) for image in ours):  # bounds of nothing may be larger
+        if not all(
+            math.isnan(float_track.x0) for float_track in ours
+        ):  # bounds of nothing may be larger
             assert short.errors == long.errors
     assert [i.motion for i in ours] == [i.motion for i in expected]
     assert_enclosed(ours, piece, frame, short.errors)
@@ -71,10 +73,10 @@ def test_enclosures_without_trajectories(points, x, y, frame):
     assert short.errors[0] <= max(long.errors[0], 1.001 * most)
 
 
-def assert_enclosed(images, piece, frame, errors):
-    for image, track in zip(images, piece.tracks, strict=True):
+def assert_enclosed(float_tracks, piece, frame, errors):
+    for float_track, track in zip(float_tracks, piece.tracks, strict=True):
         fx, fy, w = (list(map(QQ, f)) for f in frame.moved(track))
-        for near, f in ((image.xs, fx), (image.ys, fy)):
+        for near, f in ((float_track.xs, fx), (float_track.ys, fy)):
             exact = [c / w[0] for c in f] + [QQ(0)] * (len(near) - len(f))
             for c, bound, value in zip(near, errors, exact, strict=False):
                 assert math.isnan(c) or abs(QQ(*c.as_integer_ratio()) - value) <= bound
@@ -101,9 +103,9 @@ def test_trajectories_are_made_when_asked_for():
     points = [(0.5, 0.25), (3, 0), ("7", "1/2")]
     piece = Body("b", points, Translation([1, 0.1]))._piece_after(QQ(0))
 
-    images = Enclosures(frame_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
+    float_tracks = Enclosures(frame_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
 
-    assert [image.xs for image in images] == [[1.5, 0.1], [4.0, 0.1], [8.0, 0.1]]
+    assert [float_track.xs for float_track in float_tracks] == [[1.5, 0.1], [4.0, 0.1], [8.0, 0.1]]
     assert not piece._made
     assert [track.at(1)[0] for track in piece.tracks] == [
         Fraction(x) + Fraction(0.1) for x in (1.5, 4, 8)
@@ -123,7 +125,7 @@ def test_others_have_those_of_their_trajectories(vertices, motion):
     piece = Body("b", vertices, motion)._piece_after(QQ(0))
     frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
-    ours, expected = Enclosures(frame).of_piece(piece), Enclosures(frame).images(piece.tracks)
+    ours, expected = Enclosures(frame).of_piece(piece), Enclosures(frame).float_tracks(piece.tracks)
 
     assert contents(ours) == contents(expected)
 

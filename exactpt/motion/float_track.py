@@ -23,7 +23,7 @@ CANCELLING: Final = 64.0
 class Arm:
     """A trajectory as that of a pivot and an arm that turns: p(t) + r(t) / w(t).
 
-    It is normalised as an `Image` is; the relative error of each coefficient is at most one
+    It is normalised as an `FloatTrack` is; the relative error of each coefficient is at most one
     unit. Vertices of one rigid motion have the same p and w.
 
     Attributes:
@@ -62,7 +62,7 @@ class Arm:
 
 @final
 @mypyc_attr(acyclic=True)
-class Image:
+class FloatTrack:
     """The doubles nearest to the normalised coefficients of a trajectory.
 
     With the error bounds `exactpt.motion.enclosures.Enclosures.errors` they enclose the trajectory.
@@ -149,7 +149,7 @@ def translated(
     units: tuple[float, float],
     tails: tuple[list[float], list[float]],
     motion: int,
-) -> list[Image]:
+) -> list[FloatTrack]:
     """Return the enclosures of translated vertices: constants (place + shift) unit, and tails.
 
     Args:
@@ -160,16 +160,16 @@ def translated(
         motion: the number of the motion.
     """
     (xs, ys), (dx, dy), (x_unit, y_unit), (x_tail, y_tail) = places, shift, units, tails
-    images: list[Image] = []
+    float_tracks: list[FloatTrack] = []
     for i in range(len(xs)):
         x, y = xs[i] + dx, ys[i] + dy
         x0, y0 = x * x_unit, y * y_unit
         if _in_range(x, x0) and _in_range(y, y0):
-            images.append(Image([x0, *x_tail], [y0, *y_tail], [], motion))
+            float_tracks.append(FloatTrack([x0, *x_tail], [y0, *y_tail], [], motion))
         else:
             nan = [math.nan] * (len(x_tail) + 1)
-            images.append(Image(nan, nan, [], motion))
-    return images
+            float_tracks.append(FloatTrack(nan, nan, [], motion))
+    return float_tracks
 
 
 def constant_error(
