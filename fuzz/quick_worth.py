@@ -41,7 +41,7 @@ __all__ = ["Fault", "mutants", "planted"]
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = ("kernel", "geometry", "planar", "motion", "certificates", "pairs", "collision",
-                "proximity", "pseudotriangulation", "tiling", "simulation", "query", "scene",
+                "pseudotriangulation", "tiling", "simulation", "query", "scene",
                 "arrays", "proof")  # fmt: skip
 """The parts of the package that are changed."""
 

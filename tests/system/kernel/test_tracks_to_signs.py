@@ -1,4 +1,4 @@
-"""Certificates of any motion, from trajectories through a frame to the filter's answer.
+"""Certificates of any motion, from trajectories through a normalization to the result of a filter.
 
 Judged by exact arithmetic: whatever is decided must hold for the true trajectories, at times
 chosen next to the roots of the true polynomial.
