@@ -185,7 +185,7 @@ def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> Proo
             for line in proof.lines():
                 file.write(f"{line}\n")
                 if deadline is not None and clock.monotonic() > deadline:
-                    raise BudgetExceeded("limit of the check exceeded", proof.passed())
+                    raise BudgetExceeded("limit of the check exceeded", proof.contact_free_until())
         return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 

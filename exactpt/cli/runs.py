@@ -315,4 +315,4 @@ def _run(
 def _add_time_reached(spent: BudgetExceeded, search: Search | None) -> None:
     """Complete an interruption by the time up to which there is provably no contact."""
     if spent.reached is None and search is not None:
-        spent.reached = search.passed()
+        spent.reached = search.contact_free_until()

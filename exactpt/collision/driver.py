@@ -250,24 +250,25 @@ class Driver:
     def reached(self) -> Fraction | None:
         """Return a rational time, at most now, up to which no contact exists.
 
-        As `passed`, but between two events without a contact the time now, if it is rational.
+        As `contact_free_until`, but between two events without a contact the time now, if that
+        is rational.
         """
         if self.is_broken:
-            return self.passed()
+            return self.contact_free_until()
         now = self.tiled.kinetic.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
-    def passed(self) -> Fraction | None:
+    def contact_free_until(self) -> Fraction | None:
         """Return a rational time up to which no contact exists, also during an event.
 
-        None if nothing is known, see `Search.passed`.
+        None if nothing is known, see `Search.contact_free_until`.
         """
         since, tiling = self.since, self.tiled.tiling
         if since is None:
             return None
-        if tiling is None or tiling.passed is None:
+        if tiling is None or tiling.contact_free_until is None:
             return fraction(since)
-        return fraction(max(since, tiling.vertices.frame.exact_time(tiling.passed.low)))
+        return fraction(max(since, tiling.vertices.frame.exact_time(tiling.contact_free_until.low)))
 
     def _notify(self, tiling: Tiling, events: Sequence[TilingEvent] | None) -> None:
         """Notify the observers of an event time, or that there is none."""

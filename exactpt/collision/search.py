@@ -27,7 +27,7 @@ class Search(Protocol):
             BudgetExceeded: if the events, the time or the memory are used up.
         """
 
-    def passed(self) -> Fraction | None:
+    def contact_free_until(self) -> Fraction | None:
         """Return a rational time such that there is provably no contact from the start to it.
 
         The interval is closed: with a contact at t = 3, the time is less than 3. It is None if

@@ -52,9 +52,9 @@ class TilingSearch:
         """The counts of the search so far, see docs/format.md."""
         return report(self._scene, self.driver.tiled.tiling)
 
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
-        return self.driver.passed()
+    def contact_free_until(self) -> Fraction | None:
+        """See `Search.contact_free_until`."""
+        return self.driver.contact_free_until()
 
     def run_to_contact(self) -> Contact | None:
         """Return the first contact in the closed time span of the scene; None if there is none.
@@ -63,6 +63,6 @@ class TilingSearch:
             BudgetExceeded: if the events or the time are used up; its ``reached`` is a time up to
                 which no contact exists.
         """
-        with searching(None, self.passed), self._budget.held():
+        with searching(None, self.contact_free_until), self._budget.held():
             contact = self.driver.start(self.name, exact_only=self._exact_only)
             return self.driver.run(self._scene._end) if contact is None else contact

@@ -86,20 +86,22 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def searching(deadline: float | None, passed: Callable[[], Fraction | None]) -> Iterator[None]:
+def searching(
+    deadline: float | None, contact_free_until: Callable[[], Fraction | None]
+) -> Iterator[None]:
     """As `within`, `GRACE` after a deadline, for a search that reports its progress.
 
     Args:
         deadline: as for `within`.
-        passed: a time up to which the search has found no contact, or None: ``reached`` of an
-            error that has none.
+        contact_free_until: returns a time up to which the search has found no contact, or None:
+            ``reached`` of an error that has none.
     """
     with within(None if deadline is None else deadline + GRACE):
         try:
             yield
         except BudgetExceeded as spent:
             if spent.reached is None:
-                spent.reached = passed()
+                spent.reached = contact_free_until()
             raise
 
 

@@ -102,8 +102,8 @@ class PairsSearch:
             "filtered": self._counters.filtered,
         }
 
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
+    def contact_free_until(self) -> Fraction | None:
+        """See `Search.contact_free_until`."""
         return None if self._passed is None else fraction(self._passed)
 
     @property
@@ -128,7 +128,7 @@ class PairsSearch:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
                 no contact exists.
         """
-        with searching(self._deadline, self.passed):
+        with searching(self._deadline, self.contact_free_until):
             return self._first_contact()
 
     def _first_contact(self) -> Contact | None:

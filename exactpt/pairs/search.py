@@ -84,7 +84,7 @@ class LinearSearch:
             "filtered": counters.filtered,
         }
 
-    def passed(self) -> Fraction | None:
+    def contact_free_until(self) -> Fraction | None:
         """Return the end of a closed interval from the start on without contact; None if none is.
 
         A pair of pieces that has not been compared does not touch before its boxes intersect.
@@ -101,7 +101,7 @@ class LinearSearch:
         Raises:
             BudgetExceeded: if the time or memory of this thread, or of the search, is used up.
         """
-        with searching(self._deadline, self.passed):
+        with searching(self._deadline, self.contact_free_until):
             return self._first_contact()
 
     def _first_contact(self) -> Contact | None:

@@ -85,7 +85,7 @@ class SelectedSearch:
             "pairs": self.pairs,
         }
 
-    def passed(self) -> None:
+    def contact_free_until(self) -> None:
         """Before the end of the search, no time is known up to which bodies are apart."""
 
     def run_to_contact(self) -> Contact | None:

@@ -89,7 +89,7 @@ class ProofRun(TilingSearch):
             raise InputError("path: a proof needs one")
         if self._beside:
             write_atomically(beside(path), self._file)
-        with searching(None, self.passed), writing(path) as write:
+        with searching(None, self.contact_free_until), writing(path) as write:
             for line in self.lines():
                 write(f"{line}\n")
         return self.contact

@@ -112,7 +112,7 @@ def film_of(
         return _without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)
     driver = Driver(scene, budget=budget)
-    with carrying(lambda: scene), searching(None, driver.passed), budget.held():
+    with carrying(lambda: scene), searching(None, driver.contact_free_until), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
         contact = driver.start(plan)
         if contact is not None:

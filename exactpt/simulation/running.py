@@ -175,7 +175,7 @@ class Run:
         elif isinstance(error, BudgetExceeded):
             if error.reached is None:  # not between two events
                 self.driver.is_broken = True
-                error.reached = self.driver.passed()
+                error.reached = self.driver.contact_free_until()
         elif not isinstance(error, InputError):  # Ctrl-C, no memory, an error of the user's code
             self.driver.is_broken = True
 
@@ -260,7 +260,7 @@ class Run:
 
     def reached(self) -> Fraction | None:
         """See `Simulation.reached`."""
-        return self.driver.reached() if self.contact is None else self.driver.passed()
+        return self.driver.reached() if self.contact is None else self.driver.contact_free_until()
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
         """Return the events, seconds and memory that are left, None for no limit."""

@@ -207,7 +207,7 @@ class Simulation:
         The interval is closed: with a contact at t = 3, the time is less than 3. It is None if
         bodies touch at the start. It is computed at once, even in the middle of an event.
         """
-        return self._run.driver.passed()
+        return self._run.driver.contact_free_until()
 
     def end_proof(self) -> None:
         """Write the proof of the part since the last change of plans, and none from now on.

@@ -179,7 +179,7 @@ class Engine(Tiling):
                 if outcome == OPEN:
                     self._repair()
                     self._end_batch()
-                self.passed = self.certifier.now
+                self.contact_free_until = self.certifier.now
                 return True
         return super()._step(until)
 

@@ -43,7 +43,8 @@ class Tiling(ABC):
         table: the pending and the violated certificates, and the flat angles.
         clock: advances the current time.
         log: the record of events.
-        passed: the last time up to which it has been advanced, without a contact; None before.
+        contact_free_until: the last time up to which it has been advanced without a contact;
+            None before.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class Tiling(ABC):
         self.table: CertificateTable = CertificateTable(certifier)
         self.clock: Clock = Clock(certifier, self.table, vertices.frame)
         self.log: Log = Log(certifier, stats)
-        self.passed: EventTime | None = None
+        self.contact_free_until: EventTime | None = None
 
     @abstractmethod
     def begin(self, start: QQ) -> None:
@@ -216,7 +217,7 @@ class Tiling(ABC):
         else:
             time, entries = popped
             self._process(time, entries)
-        self.passed = self.certifier.now
+        self.contact_free_until = self.certifier.now
         return popped is not None
 
     def retreat(self, grid: QQ) -> QQ:

@@ -123,7 +123,7 @@ def test_a_contact_at_the_start_has_no_tiling():
     driver = Driver(scene, observers=[listener])
 
     assert driver.start("lazy") == first_contact(scene)
-    assert (driver.tiled.tiling, driver.passed(), listener.heard) == (
+    assert (driver.tiled.tiling, driver.contact_free_until(), listener.heard) == (
         None,
         None,
         ["on_initial_contact"],
@@ -137,10 +137,14 @@ def test_a_time_without_events_is_reached_and_the_run_goes_on():
     driver.start("lazy")
 
     assert driver.run(scene.start + 1) is None
-    assert (listener.heard[-1], driver.reached(), driver.passed() <= 1) == ("on_end", 1, True)
+    assert (listener.heard[-1], driver.reached(), driver.contact_free_until() <= 1) == (
+        "on_end",
+        1,
+        True,
+    )
     assert driver.run(scene.end) == first_contact(scene)
     assert listener.heard[-1] == "on_contact"
-    assert driver.passed() < 3
+    assert driver.contact_free_until() < 3
 
 
 @pytest.mark.parametrize("level", [None, NOTHING, CHANGES])

@@ -119,13 +119,13 @@ def test_search_interrupted_between_pieces_has_passed_no_contact(monkeypatch):
     claimed, compare = [], search._Search.compare
 
     def watched(self, a, b):
-        claimed.append(running.passed())
+        claimed.append(running.contact_free_until())
         compare(self, a, b)
-        claimed.append(running.passed())
+        claimed.append(running.contact_free_until())
 
     monkeypatch.setattr(search._Search, "compare", watched)
     running = search_for(scene, ContactQuery("auto", "auto"))
-    assert running.passed() is None
+    assert running.contact_free_until() is None
     assert running.run_to_contact().time == first
     assert len(claimed) >= 4
     assert all(0 <= t < first for t in claimed)

@@ -99,11 +99,16 @@ def claims(make, budget, last):
         budget.at(0)
         yield spent.reached
         if search is not None:
-            yield search.passed()
+            yield proved(search)
             if isinstance(search, Simulation):
                 yield search.reached()
         return
     raise AssertionError("not interrupted")
+
+
+def proved(search):
+    """The time up to which a search, or a run, has proved that bodies are apart."""
+    return (search.passed if isinstance(search, Simulation) else search.contact_free_until)()
 
 
 def is_before(time, contact):
@@ -158,12 +163,12 @@ def test_bug_interrupted_inside_the_event_of_a_contact_at_3(what, tmp_path, monk
         search.run_to_contact()
 
     assert 0 <= spent.value.reached < 3
-    assert 0 <= search.passed() < 3
+    assert 0 <= proved(search) < 3
 
 
 def test_bug_while_the_contact_is_written_a_proof_claimed_its_time():
     run = ProofRun(SCENES["rational"], tiling="lazy")
-    passed = [run.passed() for _ in run.lines()]
+    passed = [run.contact_free_until() for _ in run.lines()]
     header, reached = passed[:3], passed[3:]
 
     assert header == [None] * 3  # nothing is proved before the touches at the start are known

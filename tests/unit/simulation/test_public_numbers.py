@@ -218,18 +218,18 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
     assert no_leaks(meeting=exactpt.contacts(scene)) > 5
     assert exactpt.contact_intervals(scene, "box", "mill")
     assert no_leaks(planner=exactpt.Planner([Body("wall", [(1, -1), (1, 1)])], (0, 9))) > 5
-    assert no_leaks(search=PairsSearch(scene), passed=PairsSearch(scene).passed())
+    search = PairsSearch(scene)
+    assert no_leaks(search=search, time=search.contact_free_until())
 
 
 def test_bug_the_time_that_a_spent_budget_has_reached_is_a_fraction():
-    for search in (
-        Simulation(scene_of_every_kind(), max_events=1),
-        PairsSearch(scene_of_every_kind(), max_seconds=0),
-    ):
+    run = Simulation(scene_of_every_kind(), max_events=1)
+    search = PairsSearch(scene_of_every_kind(), max_seconds=0)
+    for either, proved in ((run, run.passed), (search, search.contact_free_until)):
         with pytest.raises(BudgetExceeded) as spent:
-            search.run_to_contact()
+            either.run_to_contact()
         assert type(spent.value.reached) is Fraction
-        assert type(search.passed()) is Fraction
+        assert type(proved()) is Fraction
 
 
 def test_numbers_far_too_long_for_a_double_are_no_trouble():
