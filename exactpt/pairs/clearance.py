@@ -44,7 +44,7 @@ from exactpt.pairs.distance import squared_gap
 from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.intervals import intervals
 from exactpt.pairs.near_features import ENOUGH, NearFeatures
-from exactpt.pairs.stretches import Stretch, stretches, two_bodies
+from exactpt.pairs.piece_pairs import PiecePair, piece_pairs, two_bodies
 from exactpt.scene.scene import Scene
 
 CLOSE: Final = power_of_two(-30)
@@ -263,20 +263,20 @@ def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> li
     """Return the pieces of the distance between two times; between them the bodies are disjoint."""
     pieces: list[ClearancePiece] = []
     now = begin
-    for stretch in stretches(a, b, begin._low, end._high):
-        until = min(AlgebraicNumber(stretch.end), end)
+    for piece_pair in piece_pairs(a, b, begin._low, end._high):
+        until = min(AlgebraicNumber(piece_pair.end), end)
         if now < until:
-            pieces += _in_stretch(NearFeatures(a, b, stretch), stretch, now, until)
+            pieces += _in_piece_pair(NearFeatures(a, b, piece_pair), piece_pair, now, until)
             now = until
     return pieces
 
 
-def _in_stretch(
-    near: NearFeatures, stretch: Stretch, now: AlgebraicNumber, until: AlgebraicNumber
+def _in_piece_pair(
+    near: NearFeatures, piece_pair: PiecePair, now: AlgebraicNumber, until: AlgebraicNumber
 ) -> Iterator[ClearancePiece]:
-    """Return the pieces from a time in a stretch until a later one."""
+    """Return the pieces from a time in a piece pair until a later one."""
     nearest: FeaturePair | None = None
-    for low, high, pairs in _windows(near, stretch.begin, stretch.end):
+    for low, high, pairs in _windows(near, piece_pair.begin, piece_pair.end):
         if now.compare_rational(high) >= 0:
             continue
         nearest = nearest or _nearest_after(pairs, now)

@@ -15,7 +15,7 @@ from exactpt.kernel.numbers import QQ, Rational, fraction, rational, show
 from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
 from exactpt.pairs.features import Feature
-from exactpt.pairs.stretches import meet, two_bodies
+from exactpt.pairs.piece_pairs import cores_intersect, two_bodies
 from exactpt.scene.scene import Scene
 
 
@@ -112,7 +112,7 @@ def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Di
     t = _rational_time(scene, at)
     found = list(_near_features(first, second, t))
     least, radius = min(squared for squared, _ in found), first.radius + second.radius
-    if least and meet(first, second, t):
+    if least and cores_intersect(first, second, t):
         return Distance(Fraction(0), (), radius)
     nearest = tuple(sorted({pair for s, pair in found if s == least}, key=_in_order))
     return Distance(fraction(least), nearest, radius)
@@ -139,7 +139,11 @@ def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
 
 def squared_distance(a: Body, b: Body, t: QQ) -> QQ:
     """Return the squared distance of the cores of two bodies at a rational time."""
-    return QQ(0) if meet(a, b, t) else min(squared for squared, _ in _near_features(a, b, t))
+    return (
+        QQ(0)
+        if cores_intersect(a, b, t)
+        else min(squared for squared, _ in _near_features(a, b, t))
+    )
 
 
 def _rational_time(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:

@@ -27,8 +27,8 @@ from exactpt.pairs.candidate_pairs import Spans, candidate_pairs
 from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.overlap import bodies_meet
+from exactpt.pairs.piece_pairs import PiecePair, piece_pairs, two_bodies
 from exactpt.pairs.selection import Selection
-from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
 FEW: Final = 100
@@ -164,10 +164,10 @@ def incidence_times(
     begins = [start] if near is None else [begin for begin, _ in near]
     ends = [end] if near is None else [stop for _, stop in near]
     found: list[AlgebraicNumber] = []
-    for stretch in stretches(a, b, start, end):
-        before = bisect_right(begins, stretch.end)
-        if before and ends[before - 1] > stretch.begin:
-            found += _times(a, b, stretch, corners=corners)
+    for piece_pair in piece_pairs(a, b, start, end):
+        before = bisect_right(begins, piece_pair.end)
+        if before and ends[before - 1] > piece_pair.begin:
+            found += _times(a, b, piece_pair, corners=corners)
     return _distinct(found)
 
 
@@ -179,7 +179,7 @@ def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
     return distinct
 
 
-def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[AlgebraicNumber]:
+def _times(a: Body, b: Body, piece_pair: PiecePair, *, corners: bool) -> Iterator[AlgebraicNumber]:
     """Yield the times at which features of two bodies are at the sum of the radii.
 
     Where they stay at it, that at which the motion ends. (A foot that leaves its edge does so at
@@ -187,20 +187,20 @@ def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[Alg
     two vertices where vertices move along edges alone.
     """
     squared = (a._radius + b._radius) ** 2
-    begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
+    begin, end = AlgebraicNumber(piece_pair.begin), AlgebraicNumber(piece_pair.end)
     for pair in feature_pairs(
-        a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch).tolist()
+        a, b, piece_pair.first, piece_pair.second, _near_pairs(a, b, piece_pair).tolist()
     ):
         check_budget()
         if not (squared or corners or pair.is_of_edge):
             return
         f = pair.at_distance(squared)
         corners |= not f
-        times = (root.time for root in roots_after(f, begin, stretch.end)) if f else (end,)
+        times = (root.time for root in roots_after(f, begin, piece_pair.end)) if f else (end,)
         yield from (time for time in times if pair.holds(time))
 
 
-def _near_pairs(a: Body, b: Body, stretch: Stretch) -> Indices:
+def _near_pairs(a: Body, b: Body, piece_pair: PiecePair) -> Indices:
     """Return the numbers of the pairs of features that may come to the sum of the radii.
 
     All if they are few. For each vertex its edges, if that is 0: equal times take the first one's
@@ -209,7 +209,7 @@ def _near_pairs(a: Body, b: Body, stretch: Stretch) -> Indices:
     n, m, of_a, of_b = a.size, b.size, len(a.edges), len(b.edges)
     order = np.arange(n * m + of_a * m + n * of_b)
     if n * m > FEW:
-        order = NearFeatures(a, b, stretch).within(a._radius + b._radius)
+        order = NearFeatures(a, b, piece_pair).within(a._radius + b._radius)
     if a._radius or b._radius:
         return order
     corners, of_second = order < n * m, order >= (n + of_a) * m

@@ -47,7 +47,7 @@ from exactpt.motion.normalization import Normalization, frame_for
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair, feature_pairs
-from exactpt.pairs.stretches import Stretch
+from exactpt.pairs.piece_pairs import PiecePair
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -55,22 +55,22 @@ ENOUGH: Final = 16
 """Number of pairs of features that are compared exactly."""
 LARGEST: Final = 2.0**400
 PARTS: Final = 32
-"""Number of parts of a stretch in which boxes are compared."""
+"""Number of parts of a time interval in which boxes are compared."""
 SHORT: Final = 2.0**-300
 """Square of the length below which an edge counts as its end."""
 
 
 @final
 class NearFeatures:
-    """The pairs of features of two bodies in a stretch of time, numbered as in `feature_pairs`."""
+    """The pairs of features of two bodies in a time interval, numbered as in `feature_pairs`."""
 
-    def __init__(self, a: Body, b: Body, stretch: Stretch) -> None:
+    def __init__(self, a: Body, b: Body, piece_pair: PiecePair) -> None:
         check_rounding()
         self._two = a, b
-        self._stretch = stretch
-        p, q = stretch.first, stretch.second
-        places = [track._at(stretch.begin) for track in (*p, *q)]
-        frame = frame_for(places, stretch.begin, stretch.end)
+        self._piece_pair = piece_pair
+        p, q = piece_pair.first, piece_pair.second
+        places = [track._at(piece_pair.begin) for track in (*p, *q)]
+        frame = frame_for(places, piece_pair.begin, piece_pair.end)
         scale = max(frame.scale)  # one for both axes: distances are compared
         self._frame = Normalization(frame.center, (scale, scale), frame.origin, frame.time_scale)
         enclosures = Enclosures(self._frame)
@@ -80,11 +80,11 @@ class NearFeatures:
 
     @cached_property
     def all(self) -> Indices:
-        """The numbers, in increasing order, of all pairs that may be nearest in the stretch."""
-        n, m = len(self._stretch.first), len(self._stretch.second)
+        """The numbers, in increasing order, of all pairs that may be nearest in the interval."""
+        n, m = len(self._piece_pair.first), len(self._piece_pair.second)
         first, second = np.ones(n, np.bool_), np.ones(m, np.bool_)
         if self._translates:
-            begin, end = self._stretch.begin, self._stretch.end
+            begin, end = self._piece_pair.begin, self._piece_pair.end
             boxes, there = self._during(begin, end), self._between(begin, end)
             x, y = there[:, 0], there[:, 2]
             i, j = 0, n
@@ -109,7 +109,7 @@ class NearFeatures:
 
         Vertices of the second body are numbered after those of the first one.
         """
-        n, m = len(self._stretch.first), len(self._stretch.second)
+        n, m = len(self._piece_pair.first), len(self._piece_pair.second)
         e = np.concatenate([np.arange(n).repeat(2), np.array(self._two[0].edges, int).ravel()])
         f = n + np.array(self._two[1].edges, int).reshape(-1, 2)
         of_second = self.all >= len(e) // 2 * m
@@ -131,18 +131,21 @@ class NearFeatures:
         """Return the pairs with these numbers, each made once."""
         made, new = self._pairs, [k for k in numbers.tolist() if k not in self._pairs]
         if new:
-            of_new = feature_pairs(*self._two, self._stretch.first, self._stretch.second, new)
+            of_new = feature_pairs(*self._two, self._piece_pair.first, self._piece_pair.second, new)
             made.update(zip(new, of_new, strict=True))
         return [made[k] for k in numbers.tolist()]
 
     def within(self, reach: QQ) -> Indices:
         """Return the pairs whose features may come within a distance of each other.
 
-        They do only where their boxes do, during one of the parts of the stretch.
+        They do only where their boxes do, during one of the parts of the interval.
         """
         by = enclosing_floats(reach * power_of_two(-self._frame.scale[0]))[1]
-        low, high = self._frame.time(self._stretch.begin)[0], self._frame.time(self._stretch.end)[1]
-        n, m = len(self._stretch.first), len(self._stretch.second)
+        low, high = (
+            self._frame.time(self._piece_pair.begin)[0],
+            self._frame.time(self._piece_pair.end)[1],
+        )
+        n, m = len(self._piece_pair.first), len(self._piece_pair.second)
         (e, e_to), (f, f_to) = (np.array(body.edges, int).reshape(-1, 2).T for body in self._two)
         found: list[Indices] = []
         for first, last in pairwise(np.linspace(low, high, PARTS + 1).tolist()):

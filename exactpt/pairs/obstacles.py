@@ -70,7 +70,7 @@ class SlabBoxes:
             boxes[during, 1::2] = np.maximum(boxes[during, 1::2], places[..., 1::2].max(axis=1))
         return boxes
 
-    def stretches(self, body: Body) -> Iterator[ActiveInterval]:
+    def active_intervals(self, body: Body) -> Iterator[ActiveInterval]:
         """Yield the times during which the box of a body intersects prepared boxes, in order."""
         box = self._of(body)[:, None, :]
         others = self._boxes
@@ -120,11 +120,11 @@ class Obstacles:
         meet = meet[np.argsort(enter[meet], kind="stable")]
         return list(zip(enter[meet].tolist(), i[meet].tolist(), j[meet].tolist(), strict=True))
 
-    def stretches(self, body: Body) -> Iterator[ActiveInterval]:
+    def active_intervals(self, body: Body) -> Iterator[ActiveInterval]:
         """Return the times during which a body is near obstacles, in order."""
         scene = self._scene
         if not scene.bodies:
             return iter(())
         if self._slab_boxes is None:
             self._slab_boxes = SlabBoxes(scene.bodies, scene._start, scene._end)
-        return self._slab_boxes.stretches(body)
+        return self._slab_boxes.active_intervals(body)

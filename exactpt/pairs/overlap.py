@@ -12,7 +12,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
 from exactpt.pairs.distance import squared_distance
-from exactpt.pairs.stretches import meet, segments_of
+from exactpt.pairs.piece_pairs import cores_intersect, segments_of
 
 Segment: TypeAlias = "tuple[Point, Point]"
 
@@ -20,7 +20,7 @@ Segment: TypeAlias = "tuple[Point, Point]"
 def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two bodies, rounded or not, have a point in common."""
     reach = a._radius + b._radius
-    return squared_distance(a, b, t) <= reach * reach if reach else meet(a, b, t)
+    return squared_distance(a, b, t) <= reach * reach if reach else cores_intersect(a, b, t)
 
 
 def overlap(a: Body, b: Body, t: QQ) -> bool:

@@ -98,15 +98,15 @@ class Planner:
         if scene.is_rounded or body._radius or not is_rigid(body):  # boxes are those of cores
             whole = ActiveInterval(scene._start, scene._end, list(range(len(scene.bodies))))
             return self._first_during(body, [whole])
-        return self._first_during(body, self._obstacles.stretches(body))
+        return self._first_during(body, self._obstacles.active_intervals(body))
 
-    def _first_during(self, body: Body, stretches: Iterable[ActiveInterval]) -> Contact | None:
+    def _first_during(self, body: Body, intervals: Iterable[ActiveInterval]) -> Contact | None:
         """Return the first contact of a body with obstacles, searched while these are near."""
         scene = self._scene
-        for stretch in stretches:
-            obstacles = [scene.bodies[i] for i in stretch.obstacles]
+        for interval in intervals:
+            obstacles = [scene.bodies[i] for i in interval.obstacles]
             names = [obstacle.name for obstacle in obstacles]
-            part = scene.going_on((*obstacles, body), stretch.start).until(stretch.end)
+            part = scene.going_on((*obstacles, body), interval.start).until(interval.end)
             contact = PairsSearch(part, ignoring=[names], ignoring_self=names).run_to_contact()
             if contact is not None:
                 return contact

@@ -48,7 +48,7 @@ from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import covers
 from exactpt.pairs.distance import squared_distance, squared_from_interior
 from exactpt.pairs.features import FeaturePair
-from exactpt.pairs.stretches import segments_of, stretches
+from exactpt.pairs.piece_pairs import piece_pairs, segments_of
 
 Segment: TypeAlias = "tuple[Point, Point]"
 
@@ -97,12 +97,12 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
         sides.append(orientation(a, b, v))
     if sides[0] * sides[1] >= 0:
         return False
-    for stretch in stretches(point, other, begin, end):
-        track, over = stretch.first[0], (stretch.second[ends[0]], stretch.second[ends[1]])
+    for piece_pair in piece_pairs(point, other, begin, end):
+        track, over = piece_pair.first[0], (piece_pair.second[ends[0]], piece_pair.second[ends[1]])
         ends_apart = (FeaturePair(Touch(0, 0, 1, -1, k), track, (over[k],)) for k in (0, 1))
         positive = [pair.at_distance(margin * margin) for pair in ends_apart]
         positive += FeaturePair(Touch(0, 0, 1, edge, -1), track, over).limits
-        if not all(_is_positive(f, stretch.begin, stretch.end) for f in positive):
+        if not all(_is_positive(f, piece_pair.begin, piece_pair.end) for f in positive):
             return False
     return True
 

@@ -81,7 +81,7 @@ def first_at_distance(
         squared: the square of the distance.
     """
     from exactpt.pairs.features import FeaturePair
-    from exactpt.pairs.stretches import segments_of
+    from exactpt.pairs.piece_pairs import segments_of
 
     pieces = [body._piece_after(start) for body in bodies]
     begin = AlgebraicNumber(start)

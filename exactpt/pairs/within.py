@@ -32,8 +32,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation_polynomial
 from exactpt.motion.track import Track
 from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.piece_pairs import PiecePair, cores_intersect, piece_pairs, segments_of
 from exactpt.pairs.rational import Earliest
-from exactpt.pairs.stretches import Stretch, meet, segments_of, stretches
 
 Norm: TypeAlias = Literal["euclidean", "max", "x", "y"]
 NORMS: Final = ("euclidean", "max", "x", "y")
@@ -55,9 +55,9 @@ def time_within(
         return AlgebraicNumber(start)
     if norm == "euclidean":
         return None
-    for stretch in stretches(first, second, start, end):
-        candidates = _candidates(first, second, stretch, d, norm)
-        time = _earliest(candidates, AlgebraicNumber(stretch.begin), stretch.end)
+    for piece_pair in piece_pairs(first, second, start, end):
+        candidates = _candidates(first, second, piece_pair, d, norm)
+        time = _earliest(candidates, AlgebraicNumber(piece_pair.begin), piece_pair.end)
         if time is not None:
             return time
     return None
@@ -110,9 +110,9 @@ def of_cores(d: QQ, radii: QQ, norm: Norm) -> QQ:
 
 
 def _candidates(
-    a: Body, b: Body, stretch: Stretch, d: QQ, norm: Literal["max", "x", "y"]
+    a: Body, b: Body, piece_pair: PiecePair, d: QQ, norm: Literal["max", "x", "y"]
 ) -> Iterator[Candidate]:
-    p, q = stretch.first, stretch.second
+    p, q = piece_pair.first, piece_pair.second
     if norm == "max":
         return _in_both(a, b, p, q, d)
     return _on_axis(p, q, d, norm)
@@ -198,7 +198,7 @@ def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
         )
         return left - high <= d and low - right <= d
     return (
-        meet(a, b, t)
+        cores_intersect(a, b, t)
         or any(_is_near(v, q[k], q[l], d) for v in p for k, l in segments_of(b))
         or any(_is_near(v, p[i], p[j], d) for v in q for i, j in segments_of(a))
     )

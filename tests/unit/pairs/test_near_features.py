@@ -11,7 +11,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.pairs import intervals
 from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.near_features import NearFeatures
-from exactpt.pairs.stretches import stretches
+from exactpt.pairs.piece_pairs import piece_pairs
 from fuzz.questions.tiny import pair_scene
 
 
@@ -37,9 +37,9 @@ def test_the_nearest_pairs_are_kept(name, offset):
     a = Body("a", [(QQ(x) + offset, y) for x, y in points], motion)
     b = Body("b", [(QQ(x) + offset, y) for x, y in ring(4, 5, 1)])
     random = Random(name)
-    (stretch,) = stretches(a, b, QQ(0), QQ(3))
-    near = NearFeatures(a, b, stretch)
-    pairs = list(feature_pairs(a, b, stretch.first, stretch.second))
+    (piece_pair,) = piece_pairs(a, b, QQ(0), QQ(3))
+    near = NearFeatures(a, b, piece_pair)
+    pairs = list(feature_pairs(a, b, piece_pair.first, piece_pair.second))
     for _ in range(4):
         low = QQ(random.randrange(0, 200), 100)
         high = low + QQ(1, random.choice((1, 8, 1000)))
@@ -62,9 +62,9 @@ def test_the_nearest_pairs_of_translating_polygons_are_kept(offset, monkeypatch)
         bend = QQ(random.randint(-9, 9), 9)
         a = Body("a", ring(sides[0], offset), Translation([0, bend], [random.uniform(-2, 0), 2]))
         b = Body("b", ring(sides[1], offset + random.uniform(3, 5), random.uniform(-1, 1)))
-        (stretch,) = stretches(a, b, QQ(0), QQ(1))
-        near = NearFeatures(a, b, stretch)
-        pairs = list(feature_pairs(a, b, stretch.first, stretch.second))
+        (piece_pair,) = piece_pairs(a, b, QQ(0), QQ(1))
+        near = NearFeatures(a, b, piece_pair)
+        pairs = list(feature_pairs(a, b, piece_pair.first, piece_pair.second))
         low, high = [(QQ(0), QQ(1)), (QQ(1, 3), QQ(1))][k % 2]
         kept = set(near.nearest(near.all, low, high).tolist())
         left_out += len(pairs) - len(kept)

@@ -1,4 +1,4 @@
-"""The time span of two bodies, cut where one of them changes its motion; whether they intersect."""
+"""The pieces of motion of two bodies, pair by pair; whether the bodies intersect."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene, a_scene
 
 
-class Stretch(NamedTuple):
-    """A time interval in which neither of two bodies changes its motion.
+class PiecePair(NamedTuple):
+    """One piece of motion of each of two bodies, during the interval that both last.
 
     Attributes:
         begin, end: the interval (begin, end].
@@ -41,12 +41,12 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     return first, second
 
 
-def stretches(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[Stretch]:
-    """Yield the time span of two bodies from piece to piece of their motions."""
+def piece_pairs(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[PiecePair]:
+    """Yield the pieces of two bodies, in the order of time: they cover the time span."""
     times = {t for t in (*a._breakpoints, *b._breakpoints) if start < t < end}
     begin = start
     for until in (*sorted(times), end):
-        yield Stretch(begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks)
+        yield PiecePair(begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks)
         begin = until
 
 
@@ -55,7 +55,7 @@ def segments_of(body: Body) -> list[tuple[int, int]]:
     return body.edges or [(0, 0)]
 
 
-def meet(a: Body, b: Body, t: QQ) -> bool:
+def cores_intersect(a: Body, b: Body, t: QQ) -> bool:
     """Return True if the cores of two bodies have a point in common at a rational time."""
     p, q = a._at(t), b._at(t)
     ends = [(p[i], p[j]) for i, j in segments_of(a)]
