@@ -196,7 +196,7 @@ def judge(
       exactpt judge answers.jsonl --questions questions.jsonl
     """
     from exactpt.files import read_bytes
-    from exactpt.testing.judging import judged, questions_in
+    from exactpt.testing.grading import grade, questions_in
 
     with time_limit(max_seconds, max_memory()):
         known = None
@@ -208,7 +208,7 @@ def judge(
                 raise InputError(f"{asked}: {error}") from None
         given = read_bytes(answers, max_bytes()).splitlines()
         try:
-            table, wrong = judged(given, known, tolerance)
+            table, wrong = grade(given, known, tolerance)
         except InputError as error:
             raise InputError(f"{answers}: {error}") from None
     print_output(*(json.dumps(table.to_json(), indent=1) if as_json else str(table)).split("\n"))

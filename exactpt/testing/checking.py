@@ -211,7 +211,7 @@ def check_subject(
         raise InputError("families: none is named")
     asked = list(_accepted(subject, cases, seed, names, accept))
     for question, truth in _with_truths(subject, asked):
-        found, _ = _judged(toi, question, truth, exact)
+        found, _ = _grade(toi, question, truth, exact)
         key = _family(question), found
         table.count(*key)
         if key not in smallest or question.size < smallest[key].size:
@@ -266,7 +266,7 @@ def _with_truths(subject: Subject[Q], asked: Sequence[Q]) -> Iterator[tuple[Q, T
         yield from zip(some, subject.truths(some), strict=True)
 
 
-def _judged(
+def _grade(
     toi: Callable[[Q], object], question: Q, truth: Truth, tolerance: QQ
 ) -> tuple[str, object]:
     """Return the verdict about an answer, and the answer, which may be an exception."""
@@ -290,11 +290,11 @@ def _shrunken(
     def fails(smaller: Q, truth: Truth) -> bool:
         if accept is not None and not accept(smaller):
             return False
-        return _judged(toi, smaller, truth, tolerance)[0] == found
+        return _grade(toi, smaller, truth, tolerance)[0] == found
 
     smallest = subject.shrink(question, fails)
     (truth,) = subject.truths([smallest])
-    return Counterexample(found, smallest, _judged(toi, smallest, truth, tolerance)[1], truth)
+    return Counterexample(found, smallest, _grade(toi, smallest, truth, tolerance)[1], truth)
 
 
 def _one_line(text: str) -> str:

@@ -18,7 +18,7 @@ NO_ANSWER: Final = object()
 """The answer to a question that has none, or an error."""
 
 
-def judged(
+def grade(
     answers: Iterable[bytes], asked: dict[Name, Asked] | None, tolerance: Rational
 ) -> tuple[Table, list[str]]:
     """Return the table of answers, and a line for each wrong one.
