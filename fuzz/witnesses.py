@@ -96,7 +96,7 @@ def symmetry(scene: Scene, turn: int | None) -> None:
     for i, (name, variant) in enumerate(VARIANTS.items()):
         if turn is not None and i % stride != turn % stride:
             continue
-        if name == "backwards" and (contact is not None or scene.is_rounded):
+        if name == "backwards" and (contact is not None or scene.has_radius):
             continue  # a rounded body may have closed on itself at the end
         tiling = tilings[(i + (turn or 0)) % len(tilings)] if tilings else "auto"
         found = first_contact(variant.scene(scene), tiling=tiling)
@@ -155,7 +155,7 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 def tilings_of(scene: Scene) -> list[str]:
     """The tilings that must support a scene, if there are any."""
-    return [] if scene.is_rounded else tilings_for(scene)
+    return [] if scene.has_radius else tilings_for(scene)
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:

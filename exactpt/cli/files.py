@@ -126,7 +126,7 @@ def convert(
         is_scene = target.suffix.lower() == ".json"
         if is_scene and not quiet:
             remarks += _what_touches(scene)
-        if typed("tolerance") and not scene.is_rounded and holds_scene(source, max_bytes()):
+        if typed("tolerance") and not scene.has_radius and holds_scene(source, max_bytes()):
             raise InputError(f"--tolerance: {source} is a scene, which is read as it is")
         write_shapes(scene, target, at, tolerance=tolerance)
     if not quiet:

@@ -191,7 +191,7 @@ def write_shapes(
         write_atomically(file, mfjson.mfjson_of(scene))
         return
     shapes = shapes_at(scene, scene._start if at is None else at)
-    if scene.is_rounded:
+    if scene.has_radius:
         from exactpt.exchange.shapely_adapter import outlined
 
         shapes = [outlined(shape, tolerance) for shape in shapes]

@@ -13,7 +13,6 @@ same pieces, up to the times at which they intersect.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -45,6 +44,7 @@ from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.intervals import intervals
 from exactpt.pairs.near_features import ENOUGH, NearFeatures
 from exactpt.pairs.piece_pairs import PiecePair, piece_pairs, two_bodies
+from exactpt.renamed import warn_renamed
 from exactpt.scene.scene import Scene
 
 CLOSE: Final = power_of_two(-30)
@@ -166,11 +166,7 @@ class Clearance:
 
     def core_squared(self, at: Rational) -> Fraction:
         """Return `squared_with_radius` under its former name, with a `DeprecationWarning`."""
-        warnings.warn(
-            "Clearance.core_squared: the name is squared_with_radius now",
-            DeprecationWarning,
-            stacklevel=2,
-        )
+        warn_renamed("Clearance.core_squared", "squared_with_radius")
         return self.squared_with_radius(at)
 
     def __call__(self, at: Rational) -> float:

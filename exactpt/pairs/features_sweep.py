@@ -114,7 +114,7 @@ class PairsSearch:
         has about three certificates for each vertex.
         """
         scene = self._scene
-        if not scene.bodies or scene.is_rounded:
+        if not scene.bodies or scene.has_radius:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)
@@ -172,7 +172,7 @@ class PairsSearch:
     def _approaches(self) -> ApproachSearch | None:
         """The search for contacts of bodies with a radius; None if none has one."""
         scene = self._scene
-        if not scene.is_rounded:
+        if not scene.has_radius:
             return None
         radii = [body._radius for body in scene.bodies]
 

@@ -95,7 +95,7 @@ class Planner:
                 planned = scene.going_on((*scene.bodies, body), scene._start)
                 few = ScenePieces(all_rows, scene._start, scene._end, near)
                 return LinearSearch(planned, few).run_to_contact()
-        if scene.is_rounded or body._radius or not is_rigid(body):  # boxes are those of cores
+        if scene.has_radius or body._radius or not is_rigid(body):  # boxes are those of cores
             whole = ActiveInterval(scene._start, scene._end, list(range(len(scene.bodies))))
             return self._first_during(body, [whole])
         return self._first_during(body, self._obstacles.active_intervals(body))

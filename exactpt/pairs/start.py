@@ -53,7 +53,7 @@ def initial_touches(
     Raises:
         InputError: if too many pairs share a point.
     """
-    if scene.is_rounded:
+    if scene.has_radius:
         return _with_radii(scene, near)
     some = range(len(scene.bodies)) if near is None else sorted({i for ij in near for i in ij})
     points = {i: scene.bodies[i]._at(scene._start) for i in some}

@@ -107,7 +107,7 @@ def film_of(
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if tiling is None or scene.is_rounded:
+    if tiling is None or scene.has_radius:
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
         return _without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)

@@ -58,7 +58,7 @@ def still(
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation: Simulation | None = None
-    if tiling is None or scene.is_rounded:
+    if tiling is None or scene.has_radius:
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
     else:
         simulation = Simulation(

@@ -14,6 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
+from exactpt.renamed import warn_renamed
 from exactpt.scene.simple import check_simple
 
 if TYPE_CHECKING:
@@ -313,6 +314,12 @@ class Scene:
 
     @property
     def is_rounded(self) -> bool:
+        """`has_radius` under its former name, with a `DeprecationWarning`."""
+        warn_renamed("Scene.is_rounded", "has_radius")
+        return self.has_radius
+
+    @property
+    def has_radius(self) -> bool:
         """True if a body has a radius."""
         arrays = self._arrays
         if arrays is not None:

@@ -119,7 +119,7 @@ def _contact(side: Side, contact: Contact | None) -> Answer:
         return None
     overlaps = {frozenset(side.groups[name] for name in names) for names in contact.overlaps}
     kind = contact.kind if contact.kind in ("initial", "self") else "later"
-    if kind == "initial" and side.scene.is_rounded and _has_groups(side):
+    if kind == "initial" and side.scene.has_radius and _has_groups(side):
         # Rounded bodies that overlap have no incidences, though other parts of them may touch.
         return contact.time, kind, overlaps
     return contact.time, kind, overlaps, _incidences(side, contact.pairs)
@@ -178,7 +178,7 @@ def _by_tiling(side: Side, case: Case) -> Answer:
 
 
 def _tiling(side: Side, case: Case) -> str:
-    if side.scene.is_rounded:
+    if side.scene.has_radius:
         raise NotAskedError
     return case.tiling
 

@@ -24,7 +24,7 @@ def test_a_radius_is_read_and_written():
     scene = Scene.from_json(data())
 
     assert scene.bodies[0].radius == Fraction(1, 2)
-    assert scene.is_rounded
+    assert scene.has_radius
     assert scene.to_json()["bodies"][0]["radius"] == "1/2"
     assert Scene.from_json(scene.to_json()) == scene
 
@@ -34,7 +34,7 @@ def test_no_radius_is_written_where_it_is_zero(zero):
     scene = Scene.from_json(data(radius=zero))
 
     assert "radius" not in scene.to_json()["bodies"][0]
-    assert not scene.is_rounded
+    assert not scene.has_radius
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_bodies_with_radii_are_values():
 def test_families_survive_files_and_pickles(family):
     scene = generate(family, 1)
 
-    assert scene.is_rounded
+    assert scene.has_radius
     assert Scene.from_json(scene.to_json()) == scene
     assert pickle.loads(pickle.dumps(scene)) == scene
 
@@ -92,10 +92,12 @@ def test_arrays_of_radii():
     scene = Scene.from_arrays(corners, offsets, radii=[0.5, 0.0])
 
     assert [body.radius for body in scene.bodies] == [Fraction(1, 2), 0]
-    assert scene.is_rounded
+    assert scene.has_radius
     assert pickle.loads(pickle.dumps(scene)) == scene
     assert Scene.from_arrays(corners, offsets, radii=2).bodies[1].radius == 2
-    assert not Scene.from_arrays(corners, offsets).is_rounded
+    assert not Scene.from_arrays(corners, offsets).has_radius
+    with pytest.warns(DeprecationWarning, match="Scene.is_rounded: the name is has_radius now"):
+        assert scene.is_rounded
 
 
 @pytest.mark.parametrize(

@@ -142,7 +142,7 @@ def test_contacts_of_some_pairs(seed):
 @pytest.mark.parametrize("seed", range(6))
 def test_first_within_of_some_pairs(seed, norm):
     scene = crowd(seed)
-    if norm == "max" and scene.is_rounded:
+    if norm == "max" and scene.has_radius:
         return
     names = [body.name for body in scene.bodies]
     group = names[:2]

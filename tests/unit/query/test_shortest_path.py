@@ -186,7 +186,7 @@ def test_shortened_walks_are_as_long_in_every_tiling():
         random = Random(f"walks {seed}")
         scene = scene_of(random)
         orders = scene, Scene(scene.bodies[::-1], (scene.start, scene.end))
-        if scene.is_rounded or initial_touches(scene)[1]:
+        if scene.has_radius or initial_touches(scene)[1]:
             continue
         spaces = [
             Simulation(one, tiling=tiling).space()

@@ -57,7 +57,7 @@ def searches(scene, folder):
         return lambda: search_for(scene, ContactQuery(method, "auto", **options))
 
     found = {"pairs": ask_for("pairs"), "auto": ask_for("auto")}
-    if not scene.is_rounded:
+    if not scene.has_radius:
         found["kinetic"] = ask_for("kinetic")
         found["proof"] = ask_for("auto", proof=folder / "a.proof")
         found["simulation"] = lambda: Simulation(scene)
@@ -137,7 +137,7 @@ def test_interrupted_at_every_check_before_a_contact(name, tmp_path, monkeypatch
 @pytest.mark.parametrize("name", SCENES)
 def test_bug_a_simulation_that_has_met_claimed_the_time_of_the_contact(name):
     scene = SCENES[name]
-    if scene.is_rounded:
+    if scene.has_radius:
         return
     simulation = Simulation(scene)
     contact = simulation.run_to_contact()

@@ -29,6 +29,8 @@ from exactpt.errors import BudgetExceeded
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pseudotriangulation.snapshot import Snapshot
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*the name is .* now:DeprecationWarning")
+
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction, range}
 
 THREE = [(0, Rigid(0)), (1, Rigid(0)), (None, Rigid(0))]
@@ -199,7 +201,6 @@ def test_bug_numbers_of_a_simulation_of_points_are_pythons_own():
     assert no_leaks(simulation=simulation, events=simulation.step(), after=simulation.tiling) > 40
 
 
-@pytest.mark.filterwarnings("ignore:Clearance.core_squared:DeprecationWarning")
 @pytest.mark.long
 @pytest.mark.parametrize("method", ["kinetic", "pairs"])
 def test_bug_numbers_of_a_contact_are_pythons_own(method):

@@ -116,7 +116,7 @@ def test_pairs_that_are_not_near_are_disjoint_at_the_start(family):
     """Contacts at the start among the scenes: the same incidences as from all pairs."""
     for seed in range(6):
         scene = generate(family, seed)
-        if not scene.is_rounded:
+        if not scene.has_radius:
             near = boxes_in_doubles(scene)
             assert initial_touches(scene, near) == initial_touches(scene)
 
