@@ -261,7 +261,7 @@ class Vertices:
 
         Args:
             i: the number of the body.
-            body: the body with its new plan.
+            body: the body with its new motion.
             t: the time from which it holds.
         """
         starts = [t, *(later for later in body._breakpoints if later > t)]
@@ -298,7 +298,7 @@ class Vertices:
         is_used = vertex.body >= 0
         places[at + MOTION] = float(float_track.motion) if is_linear and is_used else OTHER_MOTION
 
-    def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
+    def set_motion(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
         """Replace a body by one with the same position at a rational time.
 
         A body whose interior is tiled stays so, whatever its motion.

@@ -38,7 +38,7 @@ class Planner:
 
     Args:
         obstacles: bodies of different names.
-        time: the start and the end of all plans.
+        time: the start and the end of all motions.
 
     Raises:
         InputError: see `exactpt.Scene`.

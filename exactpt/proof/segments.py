@@ -1,4 +1,4 @@
-"""The proofs of a simulation: one for each part of it between two changes of plans.
+"""The proofs of a simulation: one for each part of it between two changes of motions.
 
 A checker takes a body for rigid if it is so from the start of a proof to its end. The end of a
 part is not known when it begins; so a part ends at the latest where a body that has been rigid

@@ -31,9 +31,9 @@ class Mark(NamedTuple):
 
 
 class Life(NamedTuple):
-    """A body with all of its plans as pieces of one motion, from a time until another.
+    """A body with all of its motions as pieces of one motion, from a time until another.
 
-    Before and after, its motion is continued by that of its first and last plan.
+    Before and after, its motion is continued by its first and last motion.
     """
 
     body: Body
@@ -48,8 +48,8 @@ class History:
 
     Attributes:
         start, end: the time span; the end is that of the scene if a contact has ended the run.
-        lives: the bodies, in the order in which they came. One whose shape was changed by a
-            plan is there twice, one after the other.
+        lives: the bodies, in the order in which they came. One whose shape was changed
+            by a motion is there twice, one after the other.
         marks: what happened, in order of time.
         contact: the contact that has ended the run, or None.
     """
@@ -66,7 +66,7 @@ class History:
         return all((life.since, life.until) == (self.start, self.end) for life in self.lives)
 
     def scene(self) -> Scene:
-        """Return the whole run as one scene: every plan is a piece of its body's motion.
+        """Return the whole run as one scene: every motion is a piece of its body's motion.
 
         Contacts with a response are not in it, as the bodies turned before they touched.
 
@@ -103,7 +103,7 @@ class Log:
         self._marks.append(Mark(contact.time, "contact", tuple(sorted(names))))
 
     def changed(self, t: QQ, bodies: Iterable[Body]) -> None:
-        """At a rational time, these are the bodies and their plans; takes time linear in them."""
+        """At a rational time, these are the bodies and their motions; takes time linear in them."""
         new = {body.name: body for body in bodies}
         for name in self._plans.keys() - new.keys():
             self._end_life(name, t)
@@ -150,7 +150,7 @@ def _is_same_shape(a: Body, b: Body) -> bool:
 
 
 def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
-    """Return the life of a body with these plans, each with the time of its beginning."""
+    """Return the life of a body with these motions, each with the time of its beginning."""
     since, body = plans[0]
     if len(plans) == 1:
         return Life(body, fraction(since), fraction(until))

@@ -28,24 +28,24 @@ GRID = power_of_two(-20)
 """Default grid of velocities."""
 
 
-def with_new_motion(body: Body, plan: Motion | Body, t: QQ) -> Body:
+def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
     """Return a body with a new motion from a time on.
 
     Args:
         body: the body with its current motion.
-        plan: a motion of the same shape (vertices or keyframes), or another body of the same
+        motion: a motion of the same shape (vertices or keyframes), or another body of the same
             name and number of vertices.
         t: the time.
 
     Raises:
-        InputError: if the plan is for another kind of body, or a vertex would jump.
+        InputError: if the motion is for another kind of body, or a vertex would jump.
     """
-    if isinstance(plan, Body):
-        new = plan
+    if isinstance(motion, Body):
+        new = motion
         if (new.name, new.closed, new.parts) != (body.name, body.closed, body.parts):
             raise InputError(f"body {body.name!r}: {new!r} is not a motion of {body!r}")
     else:
-        new = body.with_motion(plan)
+        new = body.with_motion(motion)
     if _moves_on(body, new, t):
         return new
     for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):

@@ -118,21 +118,21 @@ class MutableScene(TiledScene):
         now = self.kinetic.now.simplified()
         if not now.is_rational:
             raise InputError(
-                f"plans change at rational times only, not at t = {float(now)!r}: "
+                f"motions change at rational times only, not at t = {float(now)!r}: "
                 "run until a rational time first"
             )
         if now._low >= self._end._end:
             raise InputError(f"t = {show(now._low)} is the end of the time span")
         return now._low
 
-    def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
+    def set_motions(self, motions: Mapping[str, Motion | Body]) -> list[Event]:
         """Change motions, see `Simulation.set_motions`; return the events caused at once."""
         t = self.rational_now()
         new = {
-            self._index(name): with_new_motion(self.body(name), plan, t)
-            for name, plan in plans.items()
+            self._index(name): with_new_motion(self.body(name), motion, t)
+            for name, motion in motions.items()
         }
-        events = self.kinetic.change_plans(new, t)
+        events = self.kinetic.change_motions(new, t)
         if events is None:
             bodies = [new.get(i, body) for i, body in enumerate(self._bodies)]
             return self._restart(bodies, t, len(new))

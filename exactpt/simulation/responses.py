@@ -118,11 +118,11 @@ class Bounce:
             pushed = [self._push(push, change) for push in pushes]
             if not any(pushed):
                 break
-        plans = {}
+        motions = {}
         for name in names:
             if name not in self._fixed and any(change[name]):
-                plans[name] = self._plan(bodies[name], change[name], t)
-        simulation.set_motions(plans)
+                motions[name] = self._motion(bodies[name], change[name], t)
+        simulation.set_motions(motions)
 
     def momentum(self, simulation: Simulation) -> tuple[Fraction, Fraction]:
         """Return the momentum (x, y) now of all bodies that are not fixed, exactly.
@@ -216,7 +216,7 @@ class Bounce:
         a, b = a / heavy, b / heavy
         return [(pair.body, b / (a + b)), (pair.other, a / (a + b))]
 
-    def _plan(self, body: Body, change: list[float], t: QQ) -> Body:
+    def _motion(self, body: Body, change: list[float], t: QQ) -> Body:
         velocity = [
             min(max(v + dv, -self._fastest), self._fastest)
             for v, dv in zip(_translation_speed(body, t), change, strict=True)

@@ -17,6 +17,7 @@ from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
+from exactpt.renamed import renamed
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.event import Event
@@ -64,7 +65,7 @@ class Simulation:
             cannot.
         max_memory: maximum memory of the process, in bytes; None for no limit.
         proof: a new folder for proofs (docs/proofs.md): one for each part of the run between two
-            changes of plans, ``1.proof`` with ``1.scene.json``, and so on. The last part ends
+            changes of motions, ``1.proof`` with ``1.scene.json``, and so on. The last part ends
             with a contact, at the end of the time span, or by `end_proof`. A copy, or a
             restored simulation, writes none.
         record: whether the run is remembered, for `history` and `draw`. Each change of motions
@@ -210,7 +211,7 @@ class Simulation:
         return self._run.driver.contact_free_until()
 
     def end_proof(self) -> None:
-        """Write the proof of the part since the last change of plans, and none from now on.
+        """Write the proof of the part since the last change of motions, and none from now on.
 
         The part ends now; or, if that time is irrational, between the event now and the one
         before. There is nothing to do after a contact, and at the end of the time span.
@@ -230,11 +231,13 @@ class Simulation:
         """
         return self._run.mutable.body(name)
 
-    def set_motion(self, body: str, plan: Motion | Body) -> None:
+    @renamed(plan="motion")
+    def set_motion(self, body: str, motion: Motion | Body) -> None:
         """Give a body another motion from now on, see `set_motions`."""
-        self.set_motions({body: plan})
+        self.set_motions({body: motion})
 
-    def set_motions(self, plans: Mapping[str, Motion | Body]) -> None:
+    @renamed(plans="motions")
+    def set_motions(self, motions: Mapping[str, Motion | Body]) -> None:
         """Give bodies other motions from now on; the current time must be rational.
 
         Only certificates that involve these bodies are recomputed. (The tiling is rebuilt once if
@@ -242,14 +245,14 @@ class Simulation:
         first ones of the next `run`.
 
         Args:
-            plans: by name of the body, a motion of its shape; or a body of the same name and
+            motions: by name of the body, a motion of its shape; or a body of the same name and
                 number of vertices, if its shape changes in another way.
 
         Raises:
             InputError: if a body does not exist, a vertex would jump (the message names both
                 positions), or now is not rational or is the end of the time span.
         """
-        self._run.change(lambda mutable: mutable.set_motions(plans))
+        self._run.change(lambda mutable: mutable.set_motions(motions))
 
     def add(self, body: Body) -> None:
         """Add a body at the current time, which must be rational; it becomes the last one.
@@ -361,7 +364,7 @@ class Simulation:
         """Draw the simulation into a file: now (.svg, .png), or the whole run so far.
 
         An animation (.html) or film (.gif, .mp4) of the run, which must be remembered
-        (``record=True``), has the contacts, new plans, comings and goings on its ruler.
+        (``record=True``), has the contacts, new motions, arrivals and departures on its ruler.
 
         Args:
             path: the file; it is complete or not there.

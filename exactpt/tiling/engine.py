@@ -221,25 +221,25 @@ class Engine(Tiling):
             self.log.record("motion", (), ())
         return self.certified.certify_body(i)
 
-    # Changes of plans, insertion and removal of bodies
+    # Changes of motions, insertion and removal of bodies
 
-    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
-        """See `Tiling.change_plans`."""
-        if not all(self.rules.allows_plan(body, t) for body in plans.values()):
+    def change_motions(self, bodies: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
+        """See `Tiling.change_motions`."""
+        if not all(self.rules.allows_plan(body, t) for body in bodies.values()):
             return None
-        if any(self.vertices.begins_inside(i, body, t) for i, body in plans.items()):
+        if any(self.vertices.begins_inside(i, body, t) for i, body in bodies.items()):
             return None  # `tile_inside` is for one ring
         certified = self.certified
         self._begin_change(t)
         certified.failure_group.has_new_motions = True
         try:
-            for i in sorted(plans):
-                if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
+            for i in sorted(bodies):
+                if self.vertices.set_motion(i, bodies[i], t, self.certifier.end):
                     first = self.mesh.ring_edge[self.vertices.bodies[i].ring[0]]
                     tile_inside(self.mesh, first, certified.after())
                 certify_piece(self.clock, self.vertices.bodies[i], i)
                 self.log.record("motion", (), ())
-            angles = [h for i in sorted(plans) for h in certified.certify_body(i)]
+            angles = [h for i in sorted(bodies) for h in certified.certify_body(i)]
             self.rules.failed([])
             certified.certify_again(angles)
             self.repairs.repair_all()

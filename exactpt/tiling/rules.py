@@ -134,7 +134,7 @@ class Rules(Followers, ABC):
             warn("Rules.restore is now recanonicalize", DeprecationWarning, stacklevel=2)
             former()
 
-    # Changes of plans, insertion and removal of bodies
+    # Changes of motions, insertion and removal of bodies
 
     def allows_plan(self, body: Body, t: QQ) -> bool:  # noqa: ARG002
         """Return True if a body of the tiling may take this new motion from a time on."""

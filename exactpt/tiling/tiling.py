@@ -106,11 +106,11 @@ class Tiling(ABC):
         """
 
     @abstractmethod
-    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
+    def change_motions(self, bodies: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
         """Give bodies new motions, in time proportional to the number of their certificates.
 
         Args:
-            plans: for the number of each such body, the body from now on; its current positions
+            bodies: for the number of each such body, the body from now on; its current positions
                 must be the same.
             t: the current time.
 

@@ -106,7 +106,7 @@ class VerticalRules(Rules):
         """See `Rules.certify_body`."""
         self.cells.certify_body(i)
 
-    # Changes of plans, insertion and removal of bodies
+    # Changes of motions, insertion and removal of bodies
 
     def allows_plan(self, body: Body, t: QQ) -> bool:
         """See `Rules.allows_plan`: it must stay convex."""

@@ -160,15 +160,15 @@ class IncrementalTiling(Tiling):
     def remove_body(self, i: int, t: QQ) -> None:
         """See `Tiling.remove_body`: the tiling must be rebuilt."""
 
-    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
-        """See `Tiling.change_plans`."""
+    def change_motions(self, bodies: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
+        """See `Tiling.change_motions`."""
         self.clock.move_to(t)
         self._is_current = False
-        for p in map(VertexId, sorted(plans)):
-            self.vertices.set_plan(int(p), plans[int(p)], t, self.certifier.end)
+        for p in map(VertexId, sorted(bodies)):
+            self.vertices.set_motion(int(p), bodies[int(p)], t, self.certifier.end)
             self._schedule_piece(p)
             self.log.record("motion", (), ())
-        for p in map(VertexId, sorted(plans)):
+        for p in map(VertexId, sorted(bodies)):
             self._certified.certify_point(p)
         self._repairs.repair_all()
         self.stats.most = max(self.stats.most, len(self.queue))

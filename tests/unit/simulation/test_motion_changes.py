@@ -99,7 +99,7 @@ def audit(simulation):
         audit_at(kinetic, rational_between(kinetic.now, end))
 
 
-def change_plans(scene, tiling, rng, changes, audits, *, deform=False, rigid=False):
+def change_motions(scene, tiling, rng, changes, audits, *, deform=False, rigid=False):
     """Random changes at random times, some at one time; the mean of certificates touched."""
     simulation = Simulation(scene, tiling=tiling)
     names = [body.name for body in scene.bodies]
@@ -137,7 +137,7 @@ def change_plans(scene, tiling, rng, changes, audits, *, deform=False, rigid=Fal
 def test_after_new_plans_the_tiling_is_the_static_one(tiling, stars, deform):
     """Of any kind, at any time; several at one time; after contacts, too."""
     rng = Random("plans")
-    simulation, _ = change_plans(crowd(rng, 9, stars=stars), tiling, rng, 24, 12, deform=deform)
+    simulation, _ = change_motions(crowd(rng, 9, stars=stars), tiling, rng, 24, 12, deform=deform)
 
     assert simulation.stats["plans"] >= 24
 
@@ -150,7 +150,7 @@ def test_after_many_new_plans_the_tiling_is_the_static_one(tiling):
     for seed in range(6):
         rng = Random(f"many:{seed}")
         scene = crowd(rng, 10, stars=seed % 2 == 0, spacing=80)
-        simulation, _ = change_plans(scene, tiling, rng, 100, 50, deform=seed % 3 == 0)
+        simulation, _ = change_motions(scene, tiling, rng, 100, 50, deform=seed % 3 == 0)
         contacts += simulation.contacts
 
     assert contacts > 10
@@ -161,7 +161,7 @@ def test_ten_thousand_new_plans_of_two_hundred_bodies():
     """The structure equals the static one after 500 of them."""
     rng = Random("ten thousand")
     scene = crowd(rng, 200, end=10**6)
-    simulation, mean = change_plans(scene, "greedy", rng, 10_000, 500, rigid=True)
+    simulation, mean = change_motions(scene, "greedy", rng, 10_000, 500, rigid=True)
 
     print(f"{mean:.1f} certificates touched a change;", simulation.stats)  # noqa: T201
     assert simulation.stats["plans"] >= 10_000
@@ -175,7 +175,7 @@ def test_a_new_plan_costs_what_the_body_has_in_certificates(tiling):
     means = []
     for count in (9, 49):
         rng = Random(f"locality:{count}")
-        _, mean = change_plans(crowd(rng, count, end=10**4), tiling, rng, 24, 1)
+        _, mean = change_motions(crowd(rng, count, end=10**4), tiling, rng, 24, 1)
         means.append(mean)
 
     assert means[1] < 2 * means[0]
@@ -191,6 +191,20 @@ def at(simulation, t):
     for _ in simulation.run(t):
         pass
     return simulation
+
+
+def test_former_keyword_plan_works_with_a_warning():
+    scene = Scene([Body("a", [(0, 0)], Translation([0, 1]))], (0, 9))
+    runs = [Simulation(scene) for _ in range(3)]
+    turned = onward(runs[0].body("a"), 0, (0, 1))
+
+    runs[0].set_motion("a", motion=turned)
+    with pytest.warns(DeprecationWarning, match=r"set_motion\(plan=\): the name is motion now"):
+        runs[1].set_motion("a", plan=turned)
+    with pytest.warns(DeprecationWarning, match=r"set_motions\(plans=\): the name is motions now"):
+        runs[2].set_motions(plans={"a": turned})
+
+    assert [run.body("a").motion for run in runs] == [turned] * 3
 
 
 def test_a_plan_that_jumps_is_refused():

@@ -43,7 +43,7 @@ def some_plan(rng, body, t, speed):
     return Body(body.name, [{"x": line[0], "y": line[1]}])
 
 
-def change_plans(scene, rng, changes, audits, *, speed):
+def change_motions(scene, rng, changes, audits, *, speed):
     """Random plans at random times; the mean number of certificates touched by one."""
     simulation = Simulation(scene)
     assert simulation.name == "incremental"
@@ -80,7 +80,7 @@ def test_after_new_plans_the_points_are_tiled_as_they_are_statically(size):
     """In a crowded grid (many vanish at one time) and in a wide one."""
     rng = Random(f"points {size}")
     speed = 2 if size == 6 else 400
-    simulation, _ = change_plans(
+    simulation, _ = change_motions(
         swarm(rng, 12, size=size, speed=speed), rng, 120, 60, speed=speed
     )  # fmt: skip
 
@@ -94,7 +94,7 @@ def test_after_a_thousand_new_plans_the_points_are_tiled_as_they_are_statically(
         rng = Random(f"many points {size}")
         speed = 2 if size == 8 else 400
         scene = swarm(rng, count, size=size, speed=speed)
-        change_plans(scene, rng, 1000, 500, speed=speed)
+        change_motions(scene, rng, 1000, 500, speed=speed)
 
 
 def test_a_new_plan_of_a_point_costs_what_it_has_in_certificates():
@@ -102,7 +102,7 @@ def test_a_new_plan_of_a_point_costs_what_it_has_in_certificates():
     means = []
     for count in (25, 400):
         rng = Random(f"point locality {count}")
-        _, mean = change_plans(swarm(rng, count, size=10**5), rng, 40, 1, speed=40)
+        _, mean = change_motions(swarm(rng, count, size=10**5), rng, 40, 1, speed=40)
         means.append(mean)
 
     assert means[1] < 2 * means[0]
