@@ -36,7 +36,7 @@ from exactpt import (
     read_shapes,
     write_shapes,
 )  # fmt: skip
-from exactpt.batch import Question, answers
+from exactpt.batch import Options, answers
 from exactpt.certificates import CertificateQueue, squared_distance
 from exactpt.kernel import Polynomial
 
@@ -210,7 +210,7 @@ def _lines(n: int) -> Ask:
             move = {k: ["0", str(round(random.uniform(-1, 1), 2))] for k in "xy"}
             bodies.append({"name": name, "vertices": shape, "motion": move})
         lines.append(json.dumps({"exactpt": 1, "time": ["0", "5"], "bodies": bodies}))
-    return lambda: list(answers(lines, Question()))
+    return lambda: list(answers(lines, Options()))
 
 
 def _bouncing(seconds: int) -> Ask:

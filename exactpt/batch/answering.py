@@ -13,10 +13,11 @@ import numpy as np
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.arrays.screening import screened
 from exactpt.batch.linear import initial_contact, is_linear, linear_contact
-from exactpt.batch.question import Question
+from exactpt.batch.options import Options
 from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
+from exactpt.renamed import renamed
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
@@ -29,7 +30,8 @@ INITIAL: Final = KINDS.index("initial")
 Answer = dict[str, object]
 
 
-def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> Iterator[Answer]:
+@renamed(question="options")
+def answers(scenes: Iterable[str | bytes], options: Options | None = None) -> Iterator[Answer]:
     """Yield the result of each scene, a JSON text (docs/format.md), without a line number.
 
     >>> two = '''{"exactpt": 1, "time": [0, 9], "bodies": [
@@ -41,29 +43,29 @@ def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> 
 
     Args:
         scenes: the texts; they are taken some hundred at a time.
-        question: the query; by default the first contact.
+        options: the query; by default the first contact.
     """
-    asked = question or Question()
+    chosen = options or Options()
     contents = (text.encode(errors="replace") if isinstance(text, str) else text for text in scenes)
     while some := list(islice(contents, TOGETHER)):
-        yield from answers_of(some, asked)
+        yield from answers_of(some, chosen)
 
 
-def answers_of(contents: Sequence[bytes], question: Question) -> Iterator[Answer]:
+def answers_of(contents: Sequence[bytes], options: Options) -> Iterator[Answer]:
     """Yield the results of some scenes, computed together."""
-    known = _by_arrays(contents, question) if question.is_plain else {}
+    known = _by_arrays(contents, options) if options.is_plain else {}
     for k, content in enumerate(contents):
-        yield known[k] if k in known else answer(content, question)
+        yield known[k] if k in known else answer(content, options)
 
 
-def answer(content: bytes, question: Question) -> Answer:
+def answer(content: bytes, options: Options) -> Answer:
     """Return the result of a scene as JSON, or ``{"error"}`` with the reason."""
-    if len(content) > question.max_bytes:
-        return {"error": f"more than {question.max_bytes} bytes"}
+    if len(content) > options.max_bytes:
+        return {"error": f"more than {options.max_bytes} bytes"}
     try:
-        with question.budget():
+        with options.budget():
             check_budget()
-            return question.answer(_scene(content))
+            return options.answer(_scene(content))
     except (InputError, BudgetExceeded) as error:
         return {"error": str(error)}
     except MemoryError:
@@ -82,12 +84,12 @@ def _scene(content: bytes) -> Scene:
     return loads(text)
 
 
-def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answer]:
+def _by_arrays(contents: Sequence[bytes], options: Options) -> dict[int, Answer]:
     """Return the results that filters have found, by the index of the scene."""
     try:
-        with question.budget(), _uncollected():
+        with options.budget(), _uncollected():
             check_budget()
-            return _screened(_read(contents, question.max_bytes), contents)
+            return _screened(_read(contents, options.max_bytes), contents)
     except BudgetExceeded:  # each by itself
         return {}
 

@@ -8,7 +8,7 @@ from functools import partial
 from typing import NamedTuple
 
 from exactpt.batch.answering import Answer, answer, answers_of
-from exactpt.batch.question import Question
+from exactpt.batch.options import Options
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Step, Work
 
@@ -77,15 +77,15 @@ def record_of(answered: Answered, at: int) -> Record:
     return Record._make([*about, at, len(text)])
 
 
-def answered(chunk: Chunk, _report: Callable[[Step], None], question: Question) -> Answered:
+def answered(chunk: Chunk, _report: Callable[[Step], None], options: Options) -> Answered:
     """Return the results of a chunk; an empty line has no result."""
     rows = _rows(chunk)
-    return _joined(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
+    return _joined(chunk, zip(rows, answers_of([*rows.values()], options), strict=True))
 
 
-def one_by_one(chunk: Chunk, _step: Step | None, _why: str, question: Question) -> Answered:
+def one_by_one(chunk: Chunk, _step: Step | None, _why: str, options: Options) -> Answered:
     """Return the results of a chunk that ends its workers, each scene by itself in a process."""
-    work = Work(partial(_answer, question=question), _no_answer)
+    work = Work(partial(_answer, options=options), _no_answer)
     found = dict(results_of(work, iter(_rows(chunk).items()), 1))
     return _joined(chunk, sorted(found.items()))
 
@@ -99,9 +99,9 @@ def _rows(chunk: Chunk) -> dict[int, bytes]:
 def _answer(
     row: tuple[int, bytes],
     _report: Callable[[Step], None],
-    question: Question,
+    options: Options,
 ) -> tuple[int, Answer]:
-    return row[0], answer(row[1], question)
+    return row[0], answer(row[1], options)
 
 
 def _no_answer(row: tuple[int, bytes], _step: Step | None, why: str) -> tuple[int, Answer]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from exactpt.batch.chunks import Answered, Record, record_of
-from exactpt.batch.question import Question
+from exactpt.batch.options import Options
 from exactpt.errors import InputError
 from exactpt.files import lock
 
@@ -26,18 +26,18 @@ class Journal:
 
     Args:
         target: the file of results.
-        question: the query.
+        options: the query.
         length: the length of the input, which a batch that goes on must find again.
 
     Attributes:
         records: the finished chunks, by their starts.
 
     Raises:
-        InputError: if the files are not those of a batch with this question, cannot be written,
+        InputError: if the files are not those of a batch with this query, cannot be written,
             or another process writes them.
     """
 
-    def __init__(self, target: Path, question: Question, length: int) -> None:
+    def __init__(self, target: Path, options: Options, length: int) -> None:
         self._target = target
         self._paths = _beside(target, "part"), _beside(target, "journal")
         self.records: dict[int, Record] = {}
@@ -45,7 +45,7 @@ class Journal:
             self._part, self._journal = (opened.enter_context(_open(path)) for path in self._paths)
             if not lock(self._journal):
                 raise InputError(f"{self._paths[1]}: locked by another batch")
-            about = {"exactpt batch": VERSION, "question": question.to_json(), "length": length}
+            about = {"exactpt batch": VERSION, "question": options.to_json(), "length": length}
             self._read(json.dumps(about))
             self._close = opened.pop_all().close
 

@@ -11,10 +11,11 @@ from typing import NamedTuple, final
 from exactpt.batch.chunks import Answered, Record, answered, one_by_one
 from exactpt.batch.journal import Journal
 from exactpt.batch.lines import Lines, Source, size_of
+from exactpt.batch.options import Options
 from exactpt.batch.parquet import Rows, table
-from exactpt.batch.question import Question
 from exactpt.errors import InputError
 from exactpt.files import writing
+from exactpt.renamed import renamed
 from exactpt.workers.cluster import results_on
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Work
@@ -39,10 +40,11 @@ class Summary(NamedTuple):
     first: str
 
 
+@renamed(question="options")
 def run(
     scenes: str | Path,
     answers: str | Path,
-    question: Question | None = None,
+    options: Options | None = None,
     *,
     jobs: int = 1,
     scheduler: str | None = None,
@@ -57,7 +59,7 @@ def run(
     Args:
         scenes: the file: a scene on each line, or Parquet (``.parquet``) with a column "scene".
         answers: the file to write, which must not exist; Parquet if it ends in ``.parquet``.
-        question: the query; by default the first contact.
+        options: the query; by default the first contact.
         jobs: number of processes; one is this process. (More are started anew: a script that
             uses more must be importable, see `multiprocessing`.)
         scheduler: the address of a Dask scheduler, instead.
@@ -65,24 +67,24 @@ def run(
 
     Raises:
         InputError: if a file cannot be read or written, the output exists, or the input or the
-            question is not that of the batch that was interrupted.
+            query is not that of the batch that was interrupted.
     """
-    question = question or Question()
+    options = options or Options()
     given, target = Path(scenes), Path(answers)
-    source = Rows(given) if given.suffix == PARQUET else Lines(given, question.max_bytes)
+    source = Rows(given) if given.suffix == PARQUET else Lines(given, options.max_bytes)
     if target.exists():
         raise InputError(f"{target}: it exists: remove it, or choose another name")
     most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
-    journal = Journal(target, question, source.length)
+    journal = Journal(target, options, source.length)
     try:
         todo = source.chunks(dict(journal.records), most)
         done = sum(record.stop - record.start for record in journal.records.values())
-        work = Work(partial(answered, question=question), partial(one_by_one, question=question))
+        work = Work(partial(answered, options=options), partial(one_by_one, options=options))
         results: Iterator[Answered]
         if scheduler is not None:
             results = results_on(scheduler, work, todo)
         elif jobs == 1:
-            results = (answered(chunk, lambda _: None, question) for chunk in todo)
+            results = (answered(chunk, lambda _: None, options) for chunk in todo)
         else:
             results = results_of(work, todo, jobs)
         for result in results:

@@ -90,10 +90,10 @@ def batch(
       exactpt batch scenes.jsonl -o meetings.jsonl --all --until 5
       exactpt batch scenes.parquet -o near.parquet --within 1/2
     """
-    from exactpt.batch import Question, run
+    from exactpt.batch import Options, run
 
     most = max_bytes()
-    question = Question(
+    options = Options(
         every=every,
         distance=distance,
         until=until,
@@ -116,7 +116,7 @@ def batch(
                 share[:] = done, whole
                 show(done, whole)
 
-            done = run(scenes, output, question, jobs=jobs, scheduler=scheduler, report=report)
+            done = run(scenes, output, options, jobs=jobs, scheduler=scheduler, report=report)
     except KeyboardInterrupt:
         from exactpt.cli import INTERRUPTED
 

@@ -28,6 +28,8 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from exactpt.collision.search import Search
     from exactpt.collision.searches import ContactQuery
     from exactpt.pairs.contact import Contact
@@ -184,7 +186,7 @@ def _first_contact(
             stated = contact and contact.to_json()
             lines = answer_in_words(given, contact, "new " if question.after_start else "")
     except BudgetExceeded as spent:
-        _add_time_reached(spent, search)
+        _add_time_reached(spent, None if search is None else search.contact_free_until)
         reached = None if spent.reached is None else str(rational(spent.reached))
         if as_json:
             answer |= {"stats": {} if search is None else search.stats, "reached": reached}
@@ -308,11 +310,11 @@ def _run(
                         reached(event.time)
             return [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
     except BudgetExceeded as spent:
-        _add_time_reached(spent, simulation)
+        _add_time_reached(spent, None if simulation is None else simulation.passed)
         raise
 
 
-def _add_time_reached(spent: BudgetExceeded, search: Search | None) -> None:
+def _add_time_reached(spent: BudgetExceeded, until: Callable[[], Fraction | None] | None) -> None:
     """Complete an interruption by the time up to which there is provably no contact."""
-    if spent.reached is None and search is not None:
-        spent.reached = search.contact_free_until()
+    if spent.reached is None and until is not None:
+        spent.reached = until()

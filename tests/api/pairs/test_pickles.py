@@ -64,7 +64,7 @@ def history():
 
 def public_functions():
     found = [getattr(exactpt, name) for name in OF_0_2.split()]
-    found += [getattr(exactpt.batch, name) for name in ("Question", "Summary", "answers", "run")]
+    found += [getattr(exactpt.batch, name) for name in ("Options", "Summary", "answers", "run")]
     names = ("Contacts", "first_contacts", "point_segment_contacts")
     return found + [getattr(exactpt.arrays, name) for name in names]
 
@@ -107,7 +107,7 @@ ANSWERS = {
     "Spin": lambda: Spin(1, (1, 2), time=(0, "1/100")),
     "Translation": lambda: Translation([0, 1], "1/3"),
     "Velocity": lambda: exactpt.Velocity(1, 2),
-    "Question": lambda: exactpt.batch.Question(every=True),
+    "Question": lambda: exactpt.batch.Options(every=True),
     "Summary": lambda: exactpt.batch.Summary(2, 1, "2: x"),
     "functions": public_functions,
 }

@@ -8,13 +8,13 @@ from folding import every
 from scenes_of_two import far_misses, generic_lines, nearly_degenerate, tiny_and_far
 
 from exactpt.arrays import screening
-from exactpt.batch import Question, answers
+from exactpt.batch import Options, answers
 from exactpt.batch.answering import answer, answers_of
 from exactpt.batch.two_bodies import read_two_bodies
 from exactpt.collision.detector import first_contact
 from exactpt.scene.format import loads
 
-PLAIN = Question()
+PLAIN = Options()
 
 
 def one_by_one(lines):

@@ -5,7 +5,7 @@ import json
 import pytest
 from scenes_of_two import generic_lines
 
-from exactpt.batch import Question, answers, run
+from exactpt.batch import Options, answers, run
 from exactpt.batch.parquet import Rows
 from exactpt.errors import InputError
 
@@ -72,12 +72,12 @@ TWO = json.loads(generic_lines(1)[0]) | {
 
 
 @pytest.mark.parametrize(
-    "question, expected",
+    "options, expected",
     [
-        (Question(), {"time": 4.0, "kind": "vertex-edge", "vertex_a": 0, "edge_b": 0, "x": 4.0}),
-        (Question(distance=1), {"time": 3.0, "kind": None, "vertex_a": None}),
+        (Options(), {"time": 4.0, "kind": "vertex-edge", "vertex_a": 0, "edge_b": 0, "x": 4.0}),
+        (Options(distance=1), {"time": 3.0, "kind": None, "vertex_a": None}),
         (
-            Question(every=True),
+            Options(every=True),
             {
                 "time": None,
                 "intervals": [{"body_a": "ball", "body_b": "wall", "start": 4.0, "end": 4.0}],
@@ -85,15 +85,15 @@ TWO = json.loads(generic_lines(1)[0]) | {
         ),
     ],
 )
-def test_bodies_features_and_points_have_columns(tmp_path, question, expected):
+def test_bodies_features_and_points_have_columns(tmp_path, options, expected):
     path, out = tmp_path / "scenes.jsonl", tmp_path / "answers.parquet"
     path.write_text(json.dumps(TWO))
 
-    run(path, out, question)
+    run(path, out, options)
 
     (row,) = parquet.read_table(out).to_pylist()
     assert {name: row[name] for name in expected} == expected
-    if not question.every:
+    if not options.every:
         assert (row["body_a"], row["body_b"]) == ("ball", "wall")
 
 

@@ -11,7 +11,8 @@ import time
 import pytest
 from scenes_of_two import generic_lines, nearly_degenerate
 
-from exactpt.batch import Question, answers, run
+import exactpt
+from exactpt.batch import Options, answers, run
 from exactpt.batch.chunks import Chunk, answered, one_by_one
 from exactpt.batch.lines import Lines
 from exactpt.cli import main
@@ -31,8 +32,8 @@ def scenes(tmp_path):
     return path
 
 
-def expected(lines, question=None):
-    found = enumerate(answers(lines, question), 1)
+def expected(lines, options=None):
+    found = enumerate(answers(lines, options), 1)
     return "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in found)
 
 
@@ -81,9 +82,9 @@ def test_an_interrupted_batch_goes_on(scenes, tmp_path, jobs, monkeypatch):
     known = (tmp_path / "answers.jsonl.part").read_text().splitlines()
     again = []
 
-    def count(chunk, tell, question):
+    def count(chunk, tell, options):
         again.append(chunk)
-        return answered(chunk, tell, question)
+        return answered(chunk, tell, options)
 
     monkeypatch.setattr("exactpt.batch.running.answered", count)
     summary = run(scenes, out)
@@ -123,9 +124,9 @@ def test_a_journal_of_which_nothing_is_left(scenes, tmp_path):
     assert out.read_text() == EXPECTED
 
 
-def refusal(scenes, out, question=None):
+def refusal(scenes, out, options=None):
     with pytest.raises(InputError) as error:
-        run(scenes, out, question)
+        run(scenes, out, options)
     return str(error.value)
 
 
@@ -135,7 +136,7 @@ def test_another_input_or_question_is_refused(scenes, tmp_path):
     before = part.read_bytes(), journal.read_bytes()
 
     other = "of another query or input"
-    assert other in refusal(scenes, out, Question(until=3))
+    assert other in refusal(scenes, out, Options(until=3))
     text = scenes.read_text()
     scenes.write_text(text.replace("0", "1", 1))
     assert "has changed since the batch began" in refusal(scenes, out)
@@ -144,7 +145,7 @@ def test_another_input_or_question_is_refused(scenes, tmp_path):
         assert other in refusal(scenes, out)
     scenes.write_text(text)
     assert (part.read_bytes(), journal.read_bytes()) == before
-    run(scenes, out, Question(method="auto"))
+    run(scenes, out, Options(method="auto"))
     assert out.read_text() == EXPECTED
 
 
@@ -203,9 +204,9 @@ def test_scenes_of_a_chunk_that_ends_workers_are_answered_one_by_one():
     text = "\n".join([*SCENES[:4], "", *SCENES[-2:]]).encode()
     chunk = Chunk(7, 100, 100 + len(text), "digest", text)
 
-    alone = one_by_one(chunk, None, "ends", Question())
+    alone = one_by_one(chunk, None, "ends", Options())
 
-    assert alone == answered(chunk, lambda _: None, Question())
+    assert alone == answered(chunk, lambda _: None, Options())
     assert (alone.lines, alone.scenes, alone.failures) == (7, 6, 2)
     assert [json.loads(line)["line"] for line in alone.text.splitlines()] == [7, 8, 9, 10, 12, 13]
 
@@ -294,7 +295,7 @@ def test_a_line_that_is_too_long_is_an_error_of_its_own(tmp_path, most):
     long = SCENES[0].replace(": [", ": [" + " " * 600_000, 1)
     scenes.write_text("\n".join([SCENES[0], long, SCENES[1], long]))
 
-    summary = run(scenes, out, Question(max_bytes=most))
+    summary = run(scenes, out, Options(max_bytes=most))
 
     assert summary.scenes == 4
     assert summary.failures == (4 if most == 100 else 2)
@@ -323,37 +324,37 @@ def test_a_chunk_begins_where_a_known_one_ends(scenes):
 def record(chunk):
     from exactpt.batch.chunks import record_of
 
-    return record_of(answered(chunk, lambda _: None, Question(every=True)), 0)
+    return record_of(answered(chunk, lambda _: None, Options(every=True)), 0)
 
 
 QUESTIONS = {
-    "--all": (Question(every=True), "intervals"),
-    "--within 1/2": (Question(distance="1/2"), "approach"),
-    "--until 3 --since 1": (Question(until=3, since=1), "contact"),
-    "--method kinetic --tiling lazy": (Question(method="kinetic", tiling="lazy"), "contact"),
-    "--ignore a,b": (Question(ignoring=(("a", "b"),)), "contact"),
-    "--after-start": (Question(after_start=True), "contact"),
-    "--between a,b": (Question(between=(("a", "b"),)), "contact"),
-    "--exact-only": (Question(exact_only=True), "contact"),
+    "--all": (Options(every=True), "intervals"),
+    "--within 1/2": (Options(distance="1/2"), "approach"),
+    "--until 3 --since 1": (Options(until=3, since=1), "contact"),
+    "--method kinetic --tiling lazy": (Options(method="kinetic", tiling="lazy"), "contact"),
+    "--ignore a,b": (Options(ignoring=(("a", "b"),)), "contact"),
+    "--after-start": (Options(after_start=True), "contact"),
+    "--between a,b": (Options(between=(("a", "b"),)), "contact"),
+    "--exact-only": (Options(exact_only=True), "contact"),
 }
 
 
-@pytest.mark.parametrize("options", QUESTIONS)
-def test_any_question_of_one_scene(tmp_path, options, monkeypatch, capsys):
-    question, key = QUESTIONS[options]
+@pytest.mark.parametrize("given", QUESTIONS)
+def test_any_options_of_one_scene(tmp_path, given, monkeypatch, capsys):
+    options, key = QUESTIONS[given]
     monkeypatch.chdir(tmp_path)
     lines = generic_lines(6, seed=1)
     (tmp_path / "scenes.jsonl").write_text("\n".join(lines))
 
     with pytest.raises(SystemExit) as left:
-        main(["batch", "scenes.jsonl", "-o", "answers.jsonl", *options.split()])
+        main(["batch", "scenes.jsonl", "-o", "answers.jsonl", *given.split()])
 
     assert left.value.code == 0
-    assert (tmp_path / "answers.jsonl").read_text() == expected(lines, question)
+    assert (tmp_path / "answers.jsonl").read_text() == expected(lines, options)
     told = [json.loads(line)[key] for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
     (tmp_path / "one.json").write_text(lines[0])
     if key != "approach":
-        asked = options.replace("--until 3 --since 1", "--since 1 --until 3").split()
+        asked = given.replace("--until 3 --since 1", "--since 1 --until 3").split()
         with pytest.raises(SystemExit):
             main(["collide", "one.json", "--json", *asked])
         assert json.loads(capsys.readouterr().out)[key] == told[0]
@@ -381,7 +382,7 @@ def test_a_budget_is_one_of_each_scene(tmp_path):
     one = json.dumps({"exactpt": 1, "time": [0, 1], "bodies": far})
     scenes.write_text(f"{one}\n{SCENES[0]}\n")
 
-    summary = run(scenes, out, Question(max_memory=1))
+    summary = run(scenes, out, Options(max_memory=1))
 
     assert summary.failures == 2
     assert summary.first == "line 1: memory limit exceeded"
@@ -389,7 +390,7 @@ def test_a_budget_is_one_of_each_scene(tmp_path):
 
 @pytest.mark.parametrize("line", [SCENES[0], TURNING[0]])
 def test_no_time_at_all(line):
-    (told,) = answers([line], Question(max_seconds=0))
+    (told,) = answers([line], Options(max_seconds=0))
 
     assert told == {"error": "time limit exceeded"}
 
@@ -446,3 +447,14 @@ def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     with pytest.raises(InputError, match="no scheduler at"):
         run(scenes, tmp_path / "answers.jsonl", scheduler="nonsense://nowhere")
     assert not list(tmp_path.glob("answers.jsonl*"))
+
+
+def test_former_name_of_the_options_works_with_a_warning():
+    with pytest.warns(DeprecationWarning, match="batch.Question: the name is Options now"):
+        former = exactpt.batch.Question
+    with pytest.warns(DeprecationWarning, match=r"answers\(question=\): the name is options now"):
+        found = answers(SCENES[:1], question=former(every=True))
+
+    assert (former, list(found)) == (Options, list(answers(SCENES[:1], Options(every=True))))
+    with pytest.raises(AttributeError, match="no attribute 'Other'"):
+        exactpt.batch.Other  # noqa: B018 - raises
