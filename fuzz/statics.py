@@ -100,7 +100,7 @@ def audit_places(vertices: Vertices) -> None:
     Raises:
         AuditError: if they differ.
     """
-    enclosures = Enclosures(vertices.frame)
+    enclosures = Enclosures(vertices.normalization)
     for moving in vertices.bodies:
         float_tracks = enclosures.of_piece(moving.body._piece_after(moving.since))
         for v in moving.ring:

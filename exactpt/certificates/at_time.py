@@ -79,7 +79,7 @@ class PredicatesAt(Predicates):
         self._exact_only: bool = exact_only
         self._exact: dict[VertexId, Point] = {}
         # The error of a difference of coordinates is at most d plus its own rounding.
-        self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
+        self._xs, self._ys, error = positions_at(vertices, *vertices.normalization.time(time))
         self._x: vec[float] = vec[float](items(self._xs))
         self._y: vec[float] = vec[float](items(self._ys))
         d = self._d = 2.0 * error
@@ -103,7 +103,7 @@ class PredicatesAt(Predicates):
         found = self._exact.get(v)
         if found is None:
             x, y = self._x[v], self._y[v]
-            is_exact = self._d == 0.0 and self.vertices.frame.is_identity
+            is_exact = self._d == 0.0 and self.vertices.normalization.is_identity
             if is_exact and not isnan(x):
                 found = QQ(*x.as_integer_ratio()), QQ(*y.as_integer_ratio())
             else:
@@ -267,7 +267,7 @@ class PredicatesAt(Predicates):
         (ax, ay), (bx, by) = self.position(a), self.position(b)
         if ax == bx:
             return -INFINITY if by > ay else INFINITY
-        scale = self.vertices.frame.scale
+        scale = self.vertices.normalization.scale
         near = nearest_float((ay - by) / (bx - ax) * power_of_two(scale[0] - scale[1])) * STEPS
         return near if isinf(near) else near // 1.0
 

@@ -69,7 +69,7 @@ class Certifier:
         self._vertices = vertices
         self.all: VertexList = vertices.all
         self.end: QQ = end
-        self._end_high: float = vertices.frame.time(end)[1]
+        self._end_high: float = vertices.normalization.time(end)[1]
         self.exact_only: bool = exact_only
         self.made: int = 0
         self.skipped: int = 0
@@ -77,7 +77,7 @@ class Certifier:
         self.counters: Counters = vertices.counters
         self.errors: list[float] = vertices.enclosures.errors
         self.roots_now: list[EventTime] = []
-        low, high = vertices.frame.time(start)
+        low, high = vertices.normalization.time(start)
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
         self.now_high: float = high
@@ -104,15 +104,15 @@ class Certifier:
             time: of the event; its vertices still have the motions that lead up to it.
         """
         if time.exact is not None:
-            return Moment(time, (), self._vertices.frame)
+            return Moment(time, (), self._vertices.normalization)
         ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
         vertices = [self.all[VertexId(v)] for v in ids]
         stages = tuple([(v.moving.stage, v.index) for v in vertices])
-        return Moment(time, stages, self._vertices.frame)
+        return Moment(time, stages, self._vertices.normalization)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """Return the exact time of an event; its enclosure is narrowed as far as doubles allow."""
-        number = exact_time(time, self._numbered(time), self._vertices.frame)
+        number = exact_time(time, self._numbered(time), self._vertices.normalization)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
             self.positions.move_to(time.low, time.high)
@@ -349,7 +349,7 @@ class Certifier:
     def _event_time(
         self, number: AlgebraicNumber, key: tuple[i64, i64, i64], *, crossing: bool
     ) -> EventTime:
-        low, high = self._vertices.frame.enclosure(number)
+        low, high = self._vertices.normalization.enclosure(number)
         return EventTime(low, high, *key, number, crossing)
 
     def x_order(

@@ -33,15 +33,15 @@ class Moment:
         time: the time.
         vertices: those whose function vanishes then: the stage of the body, and the number in the
             scene. None are needed if the exact time is known.
-        frame: the normalisation of the enclosure.
+        normalization: that of the enclosure.
     """
 
     def __init__(
-        self, time: EventTime, vertices: tuple[tuple[Stage, int], ...], frame: Normalization
+        self, time: EventTime, vertices: tuple[tuple[Stage, int], ...], normalization: Normalization
     ) -> None:
         self._time: EventTime = time
         self._vertices: tuple[tuple[Stage, int], ...] = vertices
-        self._frame: Normalization = frame
+        self._normalization: Normalization = normalization
 
     @property
     def number(self) -> AlgebraicNumber:
@@ -49,12 +49,12 @@ class Moment:
         exact = self._time.exact
         if exact is None:
             vertices = tuple([(stage.piece, vertex) for stage, vertex in self._vertices])
-            exact = exact_time(self._time, vertices, self._frame)
+            exact = exact_time(self._time, vertices, self._normalization)
         return exact
 
 
 def exact_time(
-    time: EventTime, vertices: tuple[Numbered, ...], frame: Normalization
+    time: EventTime, vertices: tuple[Numbered, ...], normalization: Normalization
 ) -> AlgebraicNumber:
     """Compute ``time.exact``, and narrow the enclosure as far as doubles allow.
 
@@ -62,7 +62,7 @@ def exact_time(
         time: a root, alone in its enclosure, of the function of ``vertices``. A filter has found
             it, so the function is not identically zero.
         vertices: three for their orientation, two for their x-order.
-        frame: the normalisation of the enclosure.
+        normalization: that of the enclosure.
 
     Raises:
         AuditError: if the enclosure holds no single root of the function.
@@ -74,9 +74,9 @@ def exact_time(
             f = orientation_polynomial(tracks[0], tracks[1], tracks[2])
         else:
             f = difference(tracks[0].x, tracks[0].w, tracks[1].x, tracks[1].w)
-        number = linear_root(f) or _isolated(f, time, frame)
+        number = linear_root(f) or _isolated(f, time, normalization)
     time.exact = number
-    time.low, time.high = frame.enclosure(number)
+    time.low, time.high = normalization.enclosure(number)
     return number
 
 
@@ -88,13 +88,13 @@ def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
     return AlgebraicNumber((of_a[0] - of_b[0]) / (of_b[1] - of_a[1]))
 
 
-def _isolated(f: IntPoly, time: EventTime, frame: Normalization) -> AlgebraicNumber:
+def _isolated(f: IntPoly, time: EventTime, normalization: Normalization) -> AlgebraicNumber:
     """Return the root of a polynomial in the enclosure of a time.
 
     Raises:
         AuditError: if it does not change its sign there. Refinement would not end.
     """
-    low, high = frame.exact_time(time.low), frame.exact_time(time.high)
+    low, high = normalization.exact_time(time.low), normalization.exact_time(time.high)
     p = square_free(f)
     below = sign_at(p, low)
     if below == 0:

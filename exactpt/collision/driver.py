@@ -268,7 +268,9 @@ class Driver:
             return None
         if tiling is None or tiling.contact_free_until is None:
             return fraction(since)
-        return fraction(max(since, tiling.vertices.frame.exact_time(tiling.contact_free_until.low)))
+        return fraction(
+            max(since, tiling.vertices.normalization.exact_time(tiling.contact_free_until.low))
+        )
 
     def _notify(self, tiling: Tiling, events: Sequence[TilingEvent] | None) -> None:
         """Notify the observers of an event time, or that there is none."""

@@ -57,15 +57,15 @@ class _Common(NamedTuple):
 
 @final
 class Enclosures:
-    """The enclosures made in a frame: numbers for their rigid motions, bounds on their errors.
+    """The enclosures in a normalization: numbers for their rigid motions, bounds on their errors.
 
     Attributes:
         errors: ``errors[i]`` bounds the error of coefficient i of every enclosure of a
             translating trajectory made so far, in x and in y; 0 while all are exact.
     """
 
-    def __init__(self, frame: Normalization) -> None:
-        self._frame = frame
+    def __init__(self, normalization: Normalization) -> None:
+        self._normalization = normalization
         self._motions: dict[object, int] = {}
         self._velocities: Floats | None = None  # of the first motions, until `_motions` is needed
         self._named: int = 0
@@ -83,13 +83,13 @@ class Enclosures:
         None if doubles are not known, or would lose digits when they are added.
         """
         moved = piece.translation
-        if moved is None or max(map(abs, self._frame.scale)) > MAX_SCALED_EXPONENT:
+        if moved is None or max(map(abs, self._normalization.scale)) > MAX_SCALED_EXPONENT:
             return None
         check_budget()
         places, translation = moved
         paths = translation.x._coefficients, translation.y._coefficients
         size = max(*map(len, paths), 1)
-        (sx, sy), (cx, cy) = self._frame.scale, self._frame.center
+        (sx, sy), (cx, cy) = self._normalization.scale, self._normalization.center
         x_shift, x = self._path(paths[0], size, sx, cx)
         y_shift, y = self._path(paths[1], size, sy, cy)
         shift = nearest_float(x_shift), nearest_float(y_shift)
@@ -119,9 +119,9 @@ class Enclosures:
         Returns:
             The translation less the center, and the coefficients of t, t^2, ..., scaled.
         """
-        if self._frame.is_identity:
+        if self._normalization.is_identity:
             return (path[0], path[1:]) if path else (_ZERO, path)
-        shift, *tail = self._frame.in_time([*path, *[_ZERO] * (size - len(path))])
+        shift, *tail = self._normalization.in_time([*path, *[_ZERO] * (size - len(path))])
         return shift - center, [c * power_of_two(-scale) for c in tail]
 
     def float_tracks(self, tracks: Sequence[Track]) -> list[FloatTrack]:
@@ -168,7 +168,7 @@ class Enclosures:
         Rounding is monotone and 2^53 is a double, so an integer rounded to less than 2^53
         is itself less, and hence a double.
         """
-        if not self._frame.is_identity or track.w != _ONE:
+        if not self._normalization.is_identity or track.w != _ONE:
             return None
         x, y = ([nearest_float(QQ(c)) for c in part[1:]] for part in (track.x, track.y))
         if not all(abs(c) < INTEGERS for c in (*x, *y)):
@@ -178,7 +178,7 @@ class Enclosures:
         return x + [0.0] * (size - len(x)), y + [0.0] * (size - len(y))
 
     def _float_track(self, track: Track, motion: int) -> FloatTrack:
-        x, y, w = self._frame.moved(track)
+        x, y, w = self._normalization.moved(track)
         size = max(len(x), len(y), 1)
         if len(w) > 1:
             size = max(size, len(w))
@@ -200,13 +200,13 @@ class Enclosures:
         if isinstance(track.motion, Turning):
             common = self._common_of(track.motion)
             if common is not None:
-                float_track.make_arm = partial(_arm, track, common, self._frame)
+                float_track.make_arm = partial(_arm, track, common, self._normalization)
         return float_track
 
     def _common_of(self, turning: Turning) -> _Common | None:
         """Return the common part of the arms of a motion's vertices; None if there is none."""
         if self._turning is not turning:
-            self._turning, self._common = turning, _common_of(turning, self._frame)
+            self._turning, self._common = turning, _common_of(turning, self._normalization)
         return self._common
 
     @property
@@ -228,7 +228,7 @@ class Enclosures:
                 self.errors[i] = error
 
 
-def _arm(track: Track, common: _Common, frame: Normalization) -> Arm | None:
+def _arm(track: Track, common: _Common, normalization: Normalization) -> Arm | None:
     """Return the trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
 
     (The denominators of trajectories of one motion differ by constants.) None if the
@@ -237,11 +237,11 @@ def _arm(track: Track, common: _Common, frame: Normalization) -> Arm | None:
     factor = common.w / track.w[0]
     arms = []
     for x, part, scale in zip(
-        (track.x, track.y), (common.part_x, common.part_y), frame.scale, strict=True
+        (track.x, track.y), (common.part_x, common.part_y), normalization.scale, strict=True
     ):
         unit = power_of_two(-scale)
         r = [(a * factor - b) * unit for a, b in zip_longest(x[:3], part, fillvalue=QQ(0))]
-        r = frame.in_time(r)
+        r = normalization.in_time(r)
         arms.append(
             [*_floats(_quotients(r, common.divisor), 3), *_floats([r[0] / common.w_now], 1)]
         )
@@ -251,18 +251,18 @@ def _arm(track: Track, common: _Common, frame: Normalization) -> Arm | None:
     return Arm(common.pivot_x, common.pivot_y, arm_x, arm_y, common.denominator)
 
 
-def _common_of(turning: Turning, frame: Normalization) -> _Common | None:
+def _common_of(turning: Turning, normalization: Normalization) -> _Common | None:
     """Return the common part of the arms of all vertices of a motion; None if there is none."""
     paths = turning.x._coefficients, turning.y._coefficients
     h = turning.half_turn
     w = ONE + h * h
     if w.degree > 2 or max(map(len, paths)) > 3:
         return None
-    w_now = frame.in_time(list(w._coefficients))
+    w_now = normalization.in_time(list(w._coefficients))
     divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
     pivots = [
-        _floats(frame.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
-        for path, c, scale in zip(paths, frame.center, frame.scale, strict=True)
+        _floats(normalization.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
+        for path, c, scale in zip(paths, normalization.center, normalization.scale, strict=True)
     ]
     denominator = _floats(_quotients(w_now, divisor), 3)
     if not all(map(_fits_in_arms, chain(denominator, *pivots))):

@@ -18,7 +18,7 @@ from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.motion.motions import Translation
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.ring_order import turns_left
 
 if TYPE_CHECKING:
@@ -40,10 +40,10 @@ _ZEROS: Final = (QQ(0), QQ(0))
 
 
 class LinearRows(NamedTuple):
-    """The vertices of bodies, each body counter-clockwise, in a frame that shifts nothing.
+    """The vertices of bodies, each body counter-clockwise, in a normalization that shifts nothing.
 
     Attributes:
-        frame: the frame.
+        normalization: that of the coordinates.
         offsets: body k has the rows ``offsets[k]`` to ``offsets[k + 1]`` - 1.
         indices: of each row, its vertex in the body.
         coefficients: shape (N, 4): x0, y0, x1, y1.
@@ -51,7 +51,7 @@ class LinearRows(NamedTuple):
         error: the bound on the errors of x0 and y0; those of x1 and y1 are exact.
     """
 
-    frame: Normalization
+    normalization: Normalization
     offsets: Indices
     indices: Indices
     coefficients: Floats
@@ -96,11 +96,16 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     blur = 4.0 * U * (np.abs(places).max() + np.abs(moves).max())
     if not (np.isfinite(near).all() and np.isfinite(lost).all()):
         return None
-    frame = _frame(near, start, end, 0.0 if start == 0 and not lost.any() else float(blur))
-    if frame is None:
+    normalization = _normalization(
+        near, start, end, 0.0 if start == 0 and not lost.any() else float(blur)
+    )
+    if normalization is None:
         return None
-    units = np.array(frame.scale)
-    scaled, rates = np.ldexp(places, -units), np.ldexp(given.velocities, frame.time_scale - units)
+    units = np.array(normalization.scale)
+    scaled, rates = (
+        np.ldexp(places, -units),
+        np.ldexp(given.velocities, normalization.time_scale - units),
+    )
     if not (_in_range(scaled) and _in_range(rates)):
         return None
     first = given.offsets[:-1]
@@ -114,7 +119,9 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     rows = first[owner] + indices
     coefficients = np.concatenate((scaled[rows], rates[owner]), axis=1)
     velocities = given.velocities + 0.0  # never -0.0
-    return LinearRows(frame, given.offsets, indices, coefficients, velocities, 2.0 * U * largest)
+    return LinearRows(
+        normalization, given.offsets, indices, coefficients, velocities, 2.0 * U * largest
+    )
 
 
 def _from_arrays(bodies: _Arrays) -> _Given | None:
@@ -162,8 +169,8 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     return _Given(np.array([xs, ys]).T, np.array(offsets), moves[:, :, 0], moves[:, :, 1])
 
 
-def _frame(near: Floats, start: QQ, end: QQ, blur: float) -> Normalization | None:
-    """Return the frame of positions at the start; None if it shifts, or is not certain.
+def _normalization(near: Floats, start: QQ, end: QQ, blur: float) -> Normalization | None:
+    """Return the normalization of positions at the start; None if it shifts, or is not certain.
 
     Rounded positions, with errors of up to ``blur``, must certainly need neither a shift nor a
     scale: so it may be at most `BLUR` of their extents.
@@ -182,8 +189,8 @@ def _frame(near: Floats, start: QQ, end: QQ, blur: float) -> Normalization | Non
         points = [(QQ(0), QQ(0)), (QQ(1), QQ(1))]
     else:
         return None
-    frame = frame_for(points, start, end)
-    return frame if frame.only_scales else None
+    normalization = normalization_for(points, start, end)
+    return normalization if normalization.only_scales else None
 
 
 def _in_range(values: Floats) -> bool:

@@ -118,7 +118,7 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
     return f
 
 
-def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Normalization:
+def normalization_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Normalization:
     """Return a normalisation in which these points and the time span are of moderate size.
 
     It shifts and scales only where needed, so that the integers of an ordinary scene stay

@@ -80,12 +80,12 @@ class SweptEdges:
             longest: the length of the longest slab, if it is limited.
             many: the number of candidates above which a slab is shortened.
         """
-        times, frame = self._times, self.vertices.frame
+        times, normalization = self._times, self.vertices.normalization
         first = longest = longest or times[-1] - times[0]
-        stride = self.boxes.stride(frame.time(times[0])[0])
+        stride = self.boxes.stride(normalization.time(times[0])[0])
         # Shorter slabs do not help vertices without boxes, nor where nothing moves.
         if math.isfinite(stride):
-            first = min(first, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
+            first = min(first, power_of_two(math.frexp(stride / 8.0)[1] + normalization.time_scale))
         many = many or 2 * len(self.ids) + 64
         for now, later, found in slabs(times, near, many, first, longest):
             yield now, later, found
@@ -112,8 +112,8 @@ class SweptEdges:
 
     def during(self, now: QQ, later: QQ) -> Boxes:
         """Return the boxes that the vertices sweep, normalised."""
-        frame = self.vertices.frame
-        return self.boxes.during(frame.time(now)[0], frame.time(later)[1])
+        normalization = self.vertices.normalization
+        return self.boxes.during(normalization.time(now)[0], normalization.time(later)[1])
 
     def around(self, boxes: Boxes) -> Boxes:
         """Return the boxes of the edges, given those of the vertices."""

@@ -26,7 +26,7 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.infinitesimal import displacements
 from exactpt.motion.linear_rows import LinearRows, linear_rows
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.ring_order import ring_indices
 from exactpt.motion.vertex import MovingBody, Vertex, VertexList, unused
 
@@ -58,7 +58,7 @@ class Vertices:
         bodies: the bodies with their current motions.
         rings: for each body, the ids of its ring, each with its vertex in the scene.
         since: the time at which each body entered its piece.
-        frame: the normalisation of the run.
+        normalization: that of the run.
         end: the end of the time span.
         free: the unused ids, left by removed bodies; the last one is used first.
         plain: whether rings have no infinitesimal copies, and so no displacements.
@@ -67,7 +67,7 @@ class Vertices:
         all: the vertices, by id. Later bodies use the ids of removed ones again.
         bodies: the moving bodies, in the order of the scene.
         counters: the counts of decisions about these vertices.
-        frame: the normalisation of the enclosures.
+        normalization: that of the enclosures.
         enclosures: the enclosures of the trajectories.
         places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `FloatTrack`; the
             horizon, a double at least ``until`` of the body, normalised, infinite if that is None;
@@ -84,15 +84,15 @@ class Vertices:
         bodies: Sequence[Body],
         rings: Sequence[Sequence[tuple[VertexId, int]]],
         since: Sequence[QQ],
-        frame: Normalization,
+        normalization: Normalization,
         end: QQ,
         free: Sequence[VertexId] = (),
         *,
         plain: bool = False,
     ) -> None:
         self.counters: Counters = Counters()
-        self.frame: Normalization = frame
-        self.enclosures: Enclosures = Enclosures(frame)
+        self.normalization: Normalization = normalization
+        self.enclosures: Enclosures = Enclosures(normalization)
         self.changes: int = 0
         self._plain: bool = plain
         self._end: QQ = end
@@ -125,8 +125,8 @@ class Vertices:
             for body in bodies
         ]
         corners = [p for body in bodies for p in body._piece_after(start).corners(start)]
-        frame = frame_for(corners or [(QQ(0), QQ(0))], start, end)
-        self = cls(bodies, rings, [start] * len(bodies), frame, end, plain=plain)
+        normalization = normalization_for(corners or [(QQ(0), QQ(0))], start, end)
+        self = cls(bodies, rings, [start] * len(bodies), normalization, end, plain=plain)
         for i, moving in enumerate(self.bodies):
             moving.is_tiled = not plain and self._may_pinch(i, start, end)
         return self
@@ -134,7 +134,7 @@ class Vertices:
     @classmethod
     def _of_rows(cls, bodies: Sequence[Body], rows: LinearRows, start: QQ, end: QQ) -> Vertices:
         """Return the rings of polygons in linear translation, from their coefficients in numpy."""
-        self = cls([], [], [], rows.frame, end)
+        self = cls([], [], [], rows.normalization, end)
         self.changes = len(bodies)
         motions = self.enclosures.begin_linear(rows.velocities, rows.error)
         first, sizes = rows.offsets[:-1], np.diff(rows.offsets)
@@ -281,7 +281,7 @@ class Vertices:
                 self.all[vertex_id].offset = offset
             if moved.until is not None and moved.until < end:
                 moving.until = moved.until
-        horizon = INFINITY if moving.until is None else self.frame.time(moving.until)[1]
+        horizon = INFINITY if moving.until is None else self.normalization.time(moving.until)[1]
         for vertex_id in moving.ring:
             self._set_place(vertex_id, horizon)
 

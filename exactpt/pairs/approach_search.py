@@ -64,10 +64,10 @@ class ApproachSearch:
         self._squared = squared
         self._apart = apart
         self._swept = swept or SweptEdges(scene.bodies, scene._start, scene._end)
-        frame = self._swept.vertices.frame
+        normalization = self._swept.vertices.normalization
         # Units of both axes, relative to the smaller one: powers of two.
-        unit = min(frame.scale)
-        self._units = [s - unit for s in frame.scale]
+        unit = min(normalization.scale)
+        self._units = [s - unit for s in normalization.scale]
         near = [nearest_float(d * power_of_two(-unit)) for d in reach]
         with np.errstate(all="ignore"):
             self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)

@@ -52,7 +52,7 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
 def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
     """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
     swept = SweptEdges(scene.bodies, scene._start, scene._end)
-    units = [power_of_two(-scale) for scale in swept.vertices.frame.scale]
+    units = [power_of_two(-scale) for scale in swept.vertices.normalization.scale]
     halves = [reach / 2 + body._radius for body in scene.bodies]
     by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
 

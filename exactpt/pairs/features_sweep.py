@@ -268,7 +268,7 @@ class PairsSearch:
                 best, best_high = number, time.high
         if best is None:
             return None
-        certifier.move_to(EventTime(*vertices.frame.enclosure(best), -1, -1, -1, best), [])
+        certifier.move_to(EventTime(*vertices.normalization.enclosure(best), -1, -1, -1, best), [])
         # All incidences at that time are among the candidates of this slab: pairs excluded by
         # `_may_touch` cannot start to touch.
         features = sorted({*near[0].tolist(), *ends[near[1]].ravel().tolist()})

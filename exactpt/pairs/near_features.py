@@ -43,7 +43,7 @@ from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.kernel.rounding import SLACK, U, check_rounding
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair, feature_pairs
@@ -70,10 +70,12 @@ class NearFeatures:
         self._piece_pair = piece_pair
         p, q = piece_pair.first, piece_pair.second
         places = [track._at(piece_pair.begin) for track in (*p, *q)]
-        frame = frame_for(places, piece_pair.begin, piece_pair.end)
-        scale = max(frame.scale)  # one for both axes: distances are compared
-        self._frame = Normalization(frame.center, (scale, scale), frame.origin, frame.time_scale)
-        enclosures = Enclosures(self._frame)
+        normalization = normalization_for(places, piece_pair.begin, piece_pair.end)
+        scale = max(normalization.scale)  # one for both axes: distances are compared
+        self._normalization = Normalization(
+            normalization.center, (scale, scale), normalization.origin, normalization.time_scale
+        )
+        enclosures = Enclosures(self._normalization)
         self._boxes = SweptBoxes(enclosures.float_tracks([*p, *q]), enclosures.errors)
         self._pairs: dict[int, FeaturePair] = {}
         self._translates = all(map(_translate, (p, q)))
@@ -120,11 +122,11 @@ class NearFeatures:
 
     def _during(self, begin: QQ, end: QQ) -> Boxes:
         """Return the boxes of all vertices during an interval."""
-        return self._boxes.during(self._frame.time(begin)[0], self._frame.time(end)[1])
+        return self._boxes.during(self._normalization.time(begin)[0], self._normalization.time(end)[1])
 
     def _between(self, begin: QQ, end: QQ) -> Boxes:
         """Return the boxes of all vertices in the middle of an interval."""
-        middle = 0.5 * (self._frame.time(begin)[0] + self._frame.time(end)[1])
+        middle = 0.5 * (self._normalization.time(begin)[0] + self._normalization.time(end)[1])
         return self._boxes.during(middle, middle)
 
     def pairs(self, numbers: Indices) -> list[FeaturePair]:
@@ -140,10 +142,10 @@ class NearFeatures:
 
         They do only where their boxes do, during one of the parts of the interval.
         """
-        by = enclosing_floats(reach * power_of_two(-self._frame.scale[0]))[1]
+        by = enclosing_floats(reach * power_of_two(-self._normalization.scale[0]))[1]
         low, high = (
-            self._frame.time(self._piece_pair.begin)[0],
-            self._frame.time(self._piece_pair.end)[1],
+            self._normalization.time(self._piece_pair.begin)[0],
+            self._normalization.time(self._piece_pair.end)[1],
         )
         n, m = len(self._piece_pair.first), len(self._piece_pair.second)
         (e, e_to), (f, f_to) = (np.array(body.edges, int).reshape(-1, 2).T for body in self._two)

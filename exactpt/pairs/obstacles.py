@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.outline import far_origin
 from exactpt.motion.swept import SweptBoxes
 from exactpt.pairs.boxes import PieceBoxes
@@ -45,10 +45,12 @@ class SlabBoxes:
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
         points = [p for body in bodies for p in body._piece_after(start).corners(start)]
-        self._frame: Normalization = frame_for(points or [(QQ(0), QQ(0))], start, end)
-        self._enclosures = Enclosures(self._frame)
+        self._normalization: Normalization = normalization_for(
+            points or [(QQ(0), QQ(0))], start, end
+        )
+        self._enclosures = Enclosures(self._normalization)
         self._cuts = [start + (end - start) * k / SLABS for k in range(SLABS + 1)]
-        times = [self._frame.time(t) for t in self._cuts]
+        times = [self._normalization.time(t) for t in self._cuts]
         self._lows = np.array([low for low, _ in times[:-1]])
         self._highs = np.array([high for _, high in times[1:]])
         self._boxes = np.stack([self._of(body) for body in bodies], axis=1)
@@ -60,7 +62,7 @@ class SlabBoxes:
         start, end = self._cuts[0], self._cuts[-1]
         inner = [t for t in body._breakpoints if start < t < end]
         for since, until in pairwise([start, *inner, end]):
-            low, high = self._frame.time(since)[0], self._frame.time(until)[1]
+            low, high = self._normalization.time(since)[0], self._normalization.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
             float_tracks = self._enclosures.of_piece(body._piece_after(since))
             swept = SweptBoxes(float_tracks, self._enclosures.errors, drifting=False)

@@ -83,7 +83,7 @@ def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
 
     Bodies of other pairs are certainly disjoint.
     """
-    x, y, error = positions_at(vertices, *vertices.frame.time(start))
+    x, y, error = positions_at(vertices, *vertices.normalization.time(start))
     rings = [moving.ring for moving in vertices.bodies]
     if not rings:
         return []

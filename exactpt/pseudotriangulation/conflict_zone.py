@@ -122,7 +122,7 @@ class _Search:
         seen: set[HalfEdge] = set()
         first = self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]]
         waiting = [(0.0, twin(first))]
-        target = self.vertices.frame.point(p)
+        target = self.vertices.normalization.point(p)
         while waiting:
             _, first = heapq.heappop(waiting)
             if first in seen:
@@ -139,7 +139,7 @@ class _Search:
 
     def _distance(self, h: HalfEdge, target: tuple[float, float]) -> float:
         """Return an estimate of the distance from an edge to a normalised position."""
-        (ax, ay), (bx, by) = map(self.vertices.frame.point, self._ends(h))
+        (ax, ay), (bx, by) = map(self.vertices.normalization.point, self._ends(h))
         dx, dy, px, py = bx - ax, by - ay, target[0] - ax, target[1] - ay
         square = dx * dx + dy * dy
         s = min(max((px * dx + py * dy) / square, 0.0), 1.0) if square > 0.0 else 0.0

@@ -62,7 +62,8 @@ def tiling_to_json(kinetic: Tiling) -> Data:
             for moving in vertices.bodies
         ],
         "free": list(vertices.free),
-        "frame": _frame_to_json(vertices.frame) | {"errors": list(vertices.enclosures.errors)},
+        "frame": _normalization_to_json(vertices.normalization)
+        | {"errors": list(vertices.enclosures.errors)},
         "counts": [certifier.made, certifier.skipped, certifier.zeros],
         "stats": {"events": dict(stats.events)} | {name: getattr(stats, name) for name in _STATS},
         "queue": [
@@ -99,7 +100,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
         bodies,
         _rings_from_json(data, bodies),
         [parse_rational(body["since"]) for body in data["bodies"]],
-        _frame_from_json(data["frame"]),
+        _normalization_from_json(data["frame"]),
         parse_rational(data["end"]),
         data["free"],
     )
@@ -173,16 +174,16 @@ def _time_from_json(data: Data) -> EventTime:
     return EventTime(low, high, a, b, c, exact, data.get("crossing", True))
 
 
-def _frame_to_json(frame: Normalization) -> Data:
+def _normalization_to_json(normalization: Normalization) -> Data:
     return {
-        "center": [str(c) for c in frame.center],
-        "scale": list(frame.scale),
-        "origin": str(frame.origin),
-        "time_scale": frame.time_scale,
+        "center": [str(c) for c in normalization.center],
+        "scale": list(normalization.scale),
+        "origin": str(normalization.origin),
+        "time_scale": normalization.time_scale,
     }
 
 
-def _frame_from_json(data: Data) -> Normalization:
+def _normalization_from_json(data: Data) -> Normalization:
     x, y = map(parse_rational, data["center"])
     sx, sy = data["scale"]
     return Normalization((x, y), (sx, sy), parse_rational(data["origin"]), data["time_scale"])

@@ -28,13 +28,15 @@ class Clock:
         table: holds the times of failure.
     """
 
-    def __init__(self, certifier: Certifier, table: CertificateTable, frame: Normalization) -> None:
+    def __init__(
+        self, certifier: Certifier, table: CertificateTable, normalization: Normalization
+    ) -> None:
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
-        self._frame: Normalization = frame
+        self._normalization: Normalization = normalization
         # What `retreat` restores: the previous event time, and the entries of the current one.
         self._undo: tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None = None
-        self._until: tuple[QQ, float] = (certifier.end, frame.time(certifier.end)[0])
+        self._until: tuple[QQ, float] = (certifier.end, normalization.time(certifier.end)[0])
 
     def next_number(self) -> AlgebraicNumber | None:
         """Return the exact time of the next failure; None if there is none."""
@@ -48,7 +50,7 @@ class Clock:
 
     def is_after(self, t: QQ) -> bool:
         """Return True if now is after a rational time; exact, mostly by enclosures."""
-        low, high = self._frame.time(t)
+        low, high = self._normalization.time(t)
         if self.certifier.now_low > high:
             return True
         if self.certifier.now_high < low:
@@ -70,7 +72,7 @@ class Clock:
     def low_of(self, until: QQ) -> float:
         """Return a lower bound of a rational time, normalised."""
         if until is not self._until[0]:
-            self._until = (until, self._frame.time(until)[0])
+            self._until = (until, self._normalization.time(until)[0])
         return self._until[1]
 
     def enter(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
@@ -80,7 +82,7 @@ class Clock:
 
     def move_to(self, t: QQ) -> None:
         """Move to a rational time; no unprocessed event may lie before it."""
-        low, high = self._frame.time(t)
+        low, high = self._normalization.time(t)
         self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
 
     def forbid_retreat(self) -> None:
@@ -125,7 +127,7 @@ class Clock:
         """Return the end of a body's current piece of motion; None if it is after the time span."""
         if moving.until is None or moving.until > self.certifier.end:
             return None
-        low, high = self._frame.time(moving.until)
+        low, high = self._normalization.time(moving.until)
         return EventTime(low, high, -1, -1, -1, AlgebraicNumber(moving.until))
 
     def _put_back(self, entries: list[tuple[CertificateId, EventTime]]) -> None:

@@ -54,7 +54,7 @@ class Tiling(ABC):
         self.vertices: Vertices = vertices
         self.certifier: Certifier = certifier
         self.table: CertificateTable = CertificateTable(certifier)
-        self.clock: Clock = Clock(certifier, self.table, vertices.frame)
+        self.clock: Clock = Clock(certifier, self.table, vertices.normalization)
         self.log: Log = Log(certifier, stats)
         self.contact_free_until: EventTime | None = None
 

@@ -18,7 +18,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.incidence import difference, orientation_polynomial
-from exactpt.motion.normalization import frame_for
+from exactpt.motion.normalization import normalization_for
 from exactpt.motion.track import track
 from fuzz.filter_attacks import asked, judge
 
@@ -26,7 +26,7 @@ STYLES = ["free", "collinear", "near", "lanes"]
 
 
 def hostile_tracks(rng):
-    """Three trajectories of a random scene, and its frame; also of three nearly in line."""
+    """Three trajectories of a random scene, and its normalization; also of three nearly in line."""
     style, motion, numbers = rng.choice(STYLES), rng.choice(sorted(MOTIONS)), rng.choice(NUMBERS)
     if style == "lanes":
         motion = "linear"
@@ -35,13 +35,13 @@ def hostile_tracks(rng):
         setting = SETTINGS[rng.choice(sorted(SETTINGS))]
         scene = random_scene(motion, numbers, rng.random(), setting=setting, side=2)
     places = [p for body in scene.bodies for p in body._at(scene._start)]
-    frame = frame_for(places, scene._start, scene._end)
+    normalization = normalization_for(places, scene._start, scene._end)
     tracks = [t for body in scene.bodies for t in body._piece_after(scene._start).tracks]
     a, b, c = rng.sample(tracks, 3)
     if style in ("collinear", "near"):
         grain = power_of_two(-rng.choice([40, 52, 60])) * (places[0][1] - places[-1][1])
         c = through(a, b, QQ(rng.randint(-4, 4), 3), grain if style == "near" else QQ(0))
-    return style, motion, rng.sample([a, b, c], 3), frame, scene
+    return style, motion, rng.sample([a, b, c], 3), normalization, scene
 
 
 def through(a, b, k, grain):
@@ -58,11 +58,11 @@ def through(a, b, k, grain):
     return track(x, y, v * w, ("through", a.motion, b.motion, k, grain))
 
 
-def in_frame(frame, f):
-    """A polynomial in the scene's time, as one in the frame's."""
-    step, result = power_of_two(frame.time_scale), Polynomial()
+def in_frame(normalization, f):
+    """A polynomial in the scene's time, as one in normalised time."""
+    step, result = power_of_two(normalization.time_scale), Polynomial()
     for c in reversed(f):
-        result = result * Polynomial([frame.origin, step]) + Polynomial([c])
+        result = result * Polynomial([normalization.origin, step]) + Polynomial([c])
     return list(result._coefficients)
 
 
@@ -84,8 +84,8 @@ def attack(seed, cases):
     """What was decided wrongly; how many were asked and decided, by style and motion."""
     rng, wrong, seen, decided = random.Random(seed), [], Counter(), Counter()
     for _ in range(cases):
-        style, motion, tracks, frame, scene = hostile_tracks(rng)
-        enclosures = Enclosures(frame)
+        style, motion, tracks, normalization, scene = hostile_tracks(rng)
+        enclosures = Enclosures(normalization)
         float_tracks, errors = enclosures.float_tracks(tracks), enclosures.errors
         if rng.random() < 0.7:
             function, ask = orientation_polynomial(*tracks), coefficients.orientation
@@ -93,9 +93,9 @@ def attack(seed, cases):
             a, b = tracks[:2]
             function, ask = difference(a.x, a.w, b.x, b.w), coefficients.x_difference
             float_tracks = float_tracks[:2]
-        true, end = in_frame(frame, function), rational(frame.time(scene._end)[1])
+        true, end = in_frame(normalization, function), rational(normalization.time(scene._end)[1])
         if not any(true):
-            now = *frame.time(scene._start), float(end)
+            now = *normalization.time(scene._start), float(end)
             assert ask(*float_tracks, errors, *now, at_root=False)[0] == 0
             continue
         case = asked(rng, true, near_roots(rng, true, end), (), ())

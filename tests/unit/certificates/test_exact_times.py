@@ -9,7 +9,7 @@ from exactpt.certificates.moment import exact_time
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 
 ordinary = st.floats(-1e6, 1e6) | st.integers(-100, 100) | st.fractions(-9, 9, max_denominator=9)
 FRAME = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
@@ -31,9 +31,9 @@ def test_two_vertices_cross_when_their_trajectories_do(x, y, u, v, start):
     a, b = p.track(0), q.track(0)
     rates = [QQ(t.x[1], t.w[0]) if len(t.x) > 1 else QQ(0) for t in (a, b)]
     assume(rates[0] != rates[1])
-    frame = frame_for([a._at(QQ(0)), b._at(QQ(0))], QQ(start), QQ(start + 7))
+    normalization = normalization_for([a._at(QQ(0)), b._at(QQ(0))], QQ(start), QQ(start + 7))
 
-    number = exact_time(EventTime(0.0, 0.0, 0, 1, -1), tuple(both), frame)
+    number = exact_time(EventTime(0.0, 0.0, 0, 1, -1), tuple(both), normalization)
 
     assert a.at(number.low)[0] == b.at(number.low)[0]
     assert number.is_rational

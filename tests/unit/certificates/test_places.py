@@ -29,7 +29,7 @@ def check_places(vertices):
         count += 1
         coefficients = [float_track.x0, float_track.y0, float_track.x1, float_track.y1]
         until = vertex.moving.until
-        horizon = INFINITY if until is None else vertices.frame.time(until)[1]
+        horizon = INFINITY if until is None else vertices.normalization.time(until)[1]
         expected = [*coefficients, horizon, float(float_track.motion)]
         assert [str(value) for value in place] == [str(value) for value in expected]
     return count

@@ -13,7 +13,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.motions import Rigid
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.track import track
 
 UNIT = Fraction(1, 2**53)
@@ -33,7 +33,7 @@ def frames(draw):
     start = draw(numbers)
     span = abs(draw(numbers)) or Fraction(1)
     exact_points = [(as_rational(x), as_rational(y)) for x, y in points]
-    return frame_for(exact_points, as_rational(start), as_rational(start + span))
+    return normalization_for(exact_points, as_rational(start), as_rational(start + span))
 
 
 def shifted(f, origin, step):
@@ -49,12 +49,12 @@ def shifted(f, origin, step):
     return result
 
 
-def in_frame(frame, f, axis):
-    """The coordinate polynomial in the frame's coordinates and time."""
-    center, scale = exact(frame.center[axis]), Fraction(2) ** -frame.scale[axis]
+def in_frame(normalization, f, axis):
+    """The coordinate polynomial in normalised coordinates and time."""
+    center, scale = exact(normalization.center[axis]), Fraction(2) ** -normalization.scale[axis]
     f = [*f, *[Fraction(0)] * (1 - len(f))]
     f[0] -= center
-    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
+    origin, step = exact(normalization.origin), Fraction(2) ** normalization.time_scale
     return [c * scale for c in shifted(f, origin, step)]
 
 
@@ -65,17 +65,17 @@ def padded(f, size):
     return f + [Fraction(0)] * (size - len(f))
 
 
-@given(frame=frames(), x=polys, y=polys)
-def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
+@given(normalization=frames(), x=polys, y=polys)
+def test_images_of_translating_tracks_are_within_the_errors(normalization, x, y):
     path = track(Polynomial(x), Polynomial(y), None, None)
-    enclosures = Enclosures(frame)
+    enclosures = Enclosures(normalization)
 
     float_track = enclosures.float_tracks([path])[0]
 
     if math.isnan(float_track.x0):
         return
     for axis, (floats, f) in enumerate([(float_track.xs, x), (float_track.ys, y)]):
-        true = padded(in_frame(frame, f, axis), len(floats))
+        true = padded(in_frame(normalization, f, axis), len(floats))
         assert len(true) == len(floats)
         for i, (a, c) in enumerate(zip(floats, true, strict=True)):
             if a or abs(c) > Fraction(2) ** -1074:  # (see the bug below)
@@ -83,20 +83,20 @@ def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
                 assert a == 0.0 or 2.0**-300 <= abs(a) <= 2.0**100
 
 
-@given(frame=frames(), h=polys.filter(any), x=polys)
-def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
+@given(normalization=frames(), h=polys.filter(any), x=polys)
+def test_images_of_turning_tracks_are_right_to_a_unit(normalization, h, x):
     """Numerators and denominator, which have a common factor: a power of two."""
     turn = Polynomial(h)
     w = Polynomial([1]) + turn * turn
     path = track(Polynomial(x), turn, w, ("turn", 1))
-    enclosures = Enclosures(frame)
+    enclosures = Enclosures(normalization)
 
     float_track = enclosures.float_tracks([path])[0]
 
     if math.isnan(float_track.x0) or not float_track.ws:
         return
     whole = [[exact(c) for c in part] for part in (path.x, path.y, path.w)]
-    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
+    origin, step = exact(normalization.origin), Fraction(2) ** normalization.time_scale
     largest = max(map(abs, shifted(whole[2], origin, step)))
     ratio = largest / Fraction(max(map(abs, float_track.ws)))
     shift = round(math.log2(ratio.numerator) - math.log2(ratio.denominator))
@@ -106,7 +106,10 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
         f = whole[2]
         if axis is not None:
             size = max(len(whole[axis]), len(f))
-            center, scale = exact(frame.center[axis]), Fraction(2) ** -frame.scale[axis]
+            center, scale = (
+                exact(normalization.center[axis]),
+                Fraction(2) ** -normalization.scale[axis],
+            )
             f = [
                 (a - center * b) * scale
                 for a, b in zip(padded(whole[axis], size), padded(f, size), strict=True)
@@ -118,8 +121,8 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
 
 def test_bug_a_turning_track_of_doubles_is_moderate():
     """Its integers are beyond 2^100, but only their ratios matter."""
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
     motion = Rigid([0.1234567, 0.7654321], pivot=(0.9876543, -0.3456789), x=[0.1, 0.3])
     path = motion.track((Polynomial([1.2345678]), Polynomial([0.5678901])))
 
@@ -135,8 +138,8 @@ def test_a_center_near_the_points_keeps_doubles():
     rng = random.Random(0)
     values = [QQ(*(1e9 + rng.uniform(-30, 30)).as_integer_ratio()) for _ in range(50)]
     for points in (values, [-v for v in values]):
-        frame = frame_for([(v, v) for v in points], QQ(0), QQ(1))
-        enclosures = Enclosures(frame)
+        normalization = normalization_for([(v, v) for v in points], QQ(0), QQ(1))
+        enclosures = Enclosures(normalization)
         tracks = [track(Polynomial([v]), Polynomial([v, 1]), None, None) for v in points]
 
         float_tracks = enclosures.float_tracks(tracks)
@@ -147,8 +150,8 @@ def test_a_center_near_the_points_keeps_doubles():
 
 def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
     """1e-400 becomes 0.0, which passes for moderate and exact; the exact value must be tested."""
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
     tiny = Polynomial([1, Fraction(1, 10**400)])
 
     float_track = enclosures.float_tracks([track(tiny, Polynomial([1]), None, None)])[0]
@@ -158,8 +161,8 @@ def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
 
 def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     """A cubic of immoderate size left ``errors`` at two entries: an IndexError later."""
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
 
     path = track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)
     float_track = enclosures.float_tracks([path])[0]
@@ -168,12 +171,12 @@ def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     assert len(enclosures.errors) >= len(float_track.xs)
 
 
-@given(frame=frames(), case=algebraics())
-def test_times_are_enclosed(frame, case):
+@given(normalization=frames(), case=algebraics())
+def test_times_are_enclosed(normalization, case):
     t, root = case
-    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
+    origin, step = exact(normalization.origin), Fraction(2) ** normalization.time_scale
 
-    lo, hi = frame.enclosure(t)
+    lo, hi = normalization.enclosure(t)
 
     if math.isfinite(lo):
         assert compare_with_rational(root, origin + step * Fraction(lo)) >= 0
@@ -182,9 +185,9 @@ def test_times_are_enclosed(frame, case):
     assert hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf)
 
 
-@given(frame=frames(), t=st.floats(-(2.0**60), 2.0**60))
-def test_a_double_of_the_frame_stands_for_one_time(frame, t):
-    assert frame.time(frame.exact_time(t)) == (t, t)
+@given(normalization=frames(), t=st.floats(-(2.0**60), 2.0**60))
+def test_a_double_of_the_frame_stands_for_one_time(normalization, t):
+    assert normalization.time(normalization.exact_time(t)) == (t, t)
 
 
 @given(
@@ -194,19 +197,19 @@ def test_a_double_of_the_frame_stands_for_one_time(frame, t):
 )
 def test_ordinary_scenes_keep_their_integers(points, x, end):
     exact_points = [(as_rational(p), as_rational(q)) for p, q in [(0, 0), (1, 1), *points]]
-    frame = frame_for(exact_points, QQ(0), QQ(end))
-    enclosures = Enclosures(frame)
+    normalization = normalization_for(exact_points, QQ(0), QQ(end))
+    enclosures = Enclosures(normalization)
 
     float_track = enclosures.float_tracks([track(Polynomial(x), Polynomial([7]), None, None)])[0]
 
     assert [value(x, Fraction(1))] == [sum(map(Fraction, float_track.xs), Fraction(0))]
     assert not any(enclosures.errors)
-    assert frame.time(QQ(end)) == (float(end), float(end))
+    assert normalization.time(QQ(end)) == (float(end), float(end))
 
 
 def test_integers_are_exact_as_far_as_doubles_are():
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
 
     exact_ones = enclosures.float_tracks(
         [track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None)]
@@ -226,8 +229,8 @@ def test_integers_are_exact_as_far_as_doubles_are():
 
 
 def test_tracks_of_one_body_have_one_motion():
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
     path, other, rest = Polynomial([1, 2]), Polynomial([7, 2]), Polynomial([1])
     tracks = [track(x, rest, None, None) for x in (path, other, rest, path)]
 
@@ -241,8 +244,8 @@ def test_tracks_of_one_body_have_one_motion():
 
 def test_integer_vertices_among_others_of_one_body():
     """Tracks of one motion whose denominators differ have different numerators."""
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
     xs = (3, QQ(1, 2), 0, 2**60, -5)
     tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
 
@@ -256,8 +259,8 @@ def test_integer_vertices_among_others_of_one_body():
 def test_the_bound_is_at_most_twice_the_largest_error():
     """Cut to a quarter it would be wrong; scenes hardly ever show that, as few vertices are so."""
     worst = 1 + UNIT * (1 - Fraction(1, 2**30))
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
-    enclosures = Enclosures(frame)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(normalization)
 
     float_track = enclosures.float_tracks(
         [track(Polynomial([worst]), Polynomial([0]), None, None)]

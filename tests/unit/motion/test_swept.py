@@ -11,7 +11,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.motions import Affine, Rigid, Translation
-from exactpt.motion.normalization import frame_for
+from exactpt.motion.normalization import normalization_for
 from exactpt.motion.swept import SweptBoxes
 
 coefficients = st.lists(st.one_of(fractions, doubles.map(lambda x: x % 8)), max_size=4)
@@ -34,11 +34,11 @@ bodies = st.one_of(
 )
 def test_boxes_contain_the_vertices(bodies, begin, length):
     tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
-    frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
-    enclosures = Enclosures(frame)
+    normalization = normalization_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
+    enclosures = Enclosures(normalization)
     float_tracks = enclosures.float_tracks(tracks)
     first, last = as_rational(begin), as_rational(begin + length)
-    low, high = frame.time(first)[0], frame.time(last)[1]
+    low, high = normalization.time(first)[0], normalization.time(last)[1]
 
     swept = SweptBoxes(float_tracks, enclosures.errors)
     boxes = swept.during(low, high).tolist()
@@ -47,14 +47,22 @@ def test_boxes_contain_the_vertices(bodies, begin, length):
         for k in range(9):
             t = first + (last - first) * QQ(k, 8)
             x, y = track.at(t)
-            dx, dy = drift_at(swept, frame, t)
-            assert x_low <= (x - frame.center[0]) / QQ(2) ** frame.scale[0] - dx <= x_high
-            assert y_low <= (y - frame.center[1]) / QQ(2) ** frame.scale[1] - dy <= y_high
+            dx, dy = drift_at(swept, normalization, t)
+            assert (
+                x_low
+                <= (x - normalization.center[0]) / QQ(2) ** normalization.scale[0] - dx
+                <= x_high
+            )
+            assert (
+                y_low
+                <= (y - normalization.center[1]) / QQ(2) ** normalization.scale[1] - dy
+                <= y_high
+            )
 
 
-def drift_at(swept, frame, t):
+def drift_at(swept, normalization, t):
     """How far the boxes have drifted at a time, exactly."""
-    t = (t - frame.origin) / QQ(2) ** frame.time_scale
+    t = (t - normalization.origin) / QQ(2) ** normalization.time_scale
     return [
         sum(QQ(*c.as_integer_ratio()) * t**i for i, c in enumerate(row.tolist()))
         for row in swept.drift
@@ -67,8 +75,8 @@ def test_what_all_have_in_common_moves_no_box():
         Body("a", [(3 * i, i)], Translation([0, 5, "1/3"], [0, -7]))._piece_after(QQ(0)).tracks[0]
         for i in range(5)
     ]
-    frame = frame_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
-    enclosures = Enclosures(frame)
+    normalization = normalization_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
+    enclosures = Enclosures(normalization)
 
     swept = SweptBoxes(enclosures.float_tracks(tracks), enclosures.errors)
 
@@ -85,10 +93,10 @@ def test_boxes_contain_what_underflows(bits, numerator):
     t = QQ(numerator, 8 << bits)
     for degree in range(1060 // bits - 1, 1074 // bits + 2):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
-        frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
-        enclosures = Enclosures(frame)
+        normalization = normalization_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
+        enclosures = Enclosures(normalization)
         float_track = enclosures.float_tracks([power._piece_after(QQ(0)).tracks[0]])[0]
-        low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
+        low, high = normalization.time(t)[0], normalization.time(t * (1 + QQ(1, 1 << 50)))[1]
 
         rest = enclosures.float_tracks([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
         swept = SweptBoxes([float_track, rest, rest], enclosures.errors)
@@ -101,9 +109,9 @@ def test_boxes_are_tight():
     """Of a line: its ends; of a turn: what the bounds of numerator and denominator allow."""
     line = Body("a", [(0, 0)], Translation([0, 1], [0, -2]))._piece_after(QQ(0)).tracks[0]
     turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)]))._piece_after(QQ(0)).tracks[0]
-    frame = frame_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
-    enclosures = Enclosures(frame)
-    assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
+    normalization = normalization_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
+    enclosures = Enclosures(normalization)
+    assert normalization.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
     rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
     float_tracks = enclosures.float_tracks([line, turn, rest, rest])
@@ -120,8 +128,8 @@ def test_what_cannot_be_bounded_has_the_whole_plane():
     huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300]))._piece_after(QQ(0)).tracks[0]
     spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
     rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
-    frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
-    enclosures = Enclosures(frame)
+    normalization = normalization_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
+    enclosures = Enclosures(normalization)
     float_tracks = enclosures.float_tracks([huge, spin, rest])
 
     boxes = SweptBoxes(float_tracks, enclosures.errors).during(-50.0, 50.0).tolist()

@@ -11,7 +11,7 @@ from exactpt import Body, Pieces, Rigid, Translation
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.float_track import CANCELLING
-from exactpt.motion.normalization import Normalization, frame_for
+from exactpt.motion.normalization import Normalization, normalization_for
 
 ordinary = st.floats(-1e6, 1e6) | st.integers(-1000, 1000).map(float)
 doubles = ordinary | st.floats(allow_nan=False, allow_infinity=False)
@@ -45,37 +45,40 @@ IDENTITY = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     points=st.lists(st.tuples(doubles, doubles), min_size=3, max_size=6, unique=True),
     x=paths,
     y=paths,
-    frame=frames(),
+    normalization=frames(),
 )
 @example([(0.1, 0.2), (5e-324, -0.0), (1e308, 3.0)], [0.3], [1e308], IDENTITY)
 @example([(0.1, 0.2), (1.0, 0.7), (2.0, 3.0)], [0.3, 0.1], [7.0], frame_of((0, 0), (900, -900)))
 @example([(0.1, 0.2), (1.0, 0.7), (2.0, 3.0)], [2.0**-60, 0.1], [], frame_of((1, 0), (1, 1)))
 @example([(0.1, 0.2), (1.0, 0.7), (2.0, 3.0)], [Fraction(1, 3)], [Fraction(1, 10**400)], IDENTITY)
 @example([(-0.33, 0.0), (0.0, 0.0), (0.0051, 0.0)], [Fraction(1, 3)], [], IDENTITY)
-def test_enclosures_without_trajectories(points, x, y, frame):
+def test_enclosures_without_trajectories(points, x, y, normalization):
     """The same enclosures where all is exact, others within a bound that is hardly larger."""
     piece = Body("b", points, Translation(x, y), closed=False)._piece_after(QQ(0))
-    short, long = Enclosures(frame), Enclosures(frame)
+    short, long = Enclosures(normalization), Enclosures(normalization)
 
     ours, expected = short.of_piece(piece), long.float_tracks(piece.tracks)
 
     with_shift = any(c.denominator & (c.denominator - 1) for c in map(Fraction, [*x, *y]))
-    if not with_shift and frame.origin == 0 == frame.center[0] == frame.center[1]:
+    if (
+        not with_shift
+        and normalization.origin == 0 == normalization.center[0] == normalization.center[1]
+    ):
         assert repr(contents(ours)) == repr(contents(expected))  # NaN is NaN, 0.0 is not -0.0
         if not all(
             math.isnan(float_track.x0) for float_track in ours
         ):  # bounds of nothing may be larger
             assert short.errors == long.errors
     assert [i.motion for i in ours] == [i.motion for i in expected]
-    assert_enclosed(ours, piece, frame, short.errors)
+    assert_enclosed(ours, piece, normalization, short.errors)
     sizes = [abs(v) for i in expected for v in (i.x0, i.y0) if not math.isnan(v)]
     most = 2.0 * (1.0 + CANCELLING) * 2.0**-53 * max(sizes, default=0.0)  # see `constant_error`
     assert short.errors[0] <= max(long.errors[0], 1.001 * most)
 
 
-def assert_enclosed(float_tracks, piece, frame, errors):
+def assert_enclosed(float_tracks, piece, normalization, errors):
     for float_track, track in zip(float_tracks, piece.tracks, strict=True):
-        fx, fy, w = (list(map(QQ, f)) for f in frame.moved(track))
+        fx, fy, w = (list(map(QQ, f)) for f in normalization.moved(track))
         for near, f in ((float_track.xs, fx), (float_track.ys, fy)):
             exact = [c / w[0] for c in f] + [QQ(0)] * (len(near) - len(f))
             for c, bound, value in zip(near, errors, exact, strict=False):
@@ -87,23 +90,23 @@ def assert_enclosed(float_tracks, piece, frame, errors):
     points=st.lists(st.tuples(ratios, ratios), min_size=1, max_size=5, unique=True),
     x=st.lists(ratios, max_size=3),
     y=st.lists(ratios, max_size=3),
-    frame=frames(),
+    normalization=frames(),
 )
 @example([(Fraction(1, 3), Fraction(1, 10**400))], [Fraction(-1, 3)], [], IDENTITY)
 @example([(Fraction(1, 3), 0), (Fraction(10**9) / 7, 1)], [-Fraction(10**9) / 7], [], IDENTITY)
-def test_enclosures_of_ratios(points, x, y, frame):
+def test_enclosures_of_ratios(points, x, y, normalization):
     body = Body("b", [tuple(map(str, p)) for p in points], Translation(x, y), closed=False)
     piece = body._piece_after(QQ(0))
-    enclosures = Enclosures(frame)
+    enclosures = Enclosures(normalization)
 
-    assert_enclosed(enclosures.of_piece(piece), piece, frame, enclosures.errors)
+    assert_enclosed(enclosures.of_piece(piece), piece, normalization, enclosures.errors)
 
 
 def test_trajectories_are_made_when_asked_for():
     points = [(0.5, 0.25), (3, 0), ("7", "1/2")]
     piece = Body("b", points, Translation([1, 0.1]))._piece_after(QQ(0))
 
-    float_tracks = Enclosures(frame_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
+    float_tracks = Enclosures(normalization_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
 
     assert [float_track.xs for float_track in float_tracks] == [[1.5, 0.1], [4.0, 0.1], [8.0, 0.1]]
     assert not piece._made
@@ -123,9 +126,12 @@ def test_trajectories_are_made_when_asked_for():
 )
 def test_others_have_those_of_their_trajectories(vertices, motion):
     piece = Body("b", vertices, motion)._piece_after(QQ(0))
-    frame = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
-    ours, expected = Enclosures(frame).of_piece(piece), Enclosures(frame).float_tracks(piece.tracks)
+    ours, expected = (
+        Enclosures(normalization).of_piece(piece),
+        Enclosures(normalization).float_tracks(piece.tracks),
+    )
 
     assert contents(ours) == contents(expected)
 

@@ -32,9 +32,9 @@ def computed(monkeypatch):
     """The exact times that have been enclosed in doubles: as each is that is computed."""
     times, enclosure = [], Normalization.enclosure
 
-    def noted(frame, time):
+    def noted(normalization, time):
         times.append(time)
-        return enclosure(frame, time)
+        return enclosure(normalization, time)
 
     monkeypatch.setattr(Normalization, "enclosure", noted)
     return times
@@ -223,10 +223,10 @@ def test_whether_a_time_is_over_is_decided_exactly(family, tiling):
     """For times beside an event, between the doubles that enclose it, and the event itself."""
     scene = generate(family, 3)
     kinetic = start_tiling(scene, tiling, scene.start)
-    frame, end, tight = kinetic.vertices.frame, before_contact(scene), 0
+    normalization, end, tight = kinetic.vertices.normalization, before_contact(scene), 0
     while kinetic.advance(end) is not None:
         now = kinetic.certifier.now
-        times = [frame.exact_time(x) for x in (now.low, now.high)]
+        times = [normalization.exact_time(x) for x in (now.low, now.high)]
         times += [sum(times) / 2, times[0] - 1, times[1] + 1]
         asked = [kinetic.is_after(t) for t in times]
         low, high = kinetic.now.canonical_interval()

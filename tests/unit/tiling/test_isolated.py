@@ -210,7 +210,8 @@ def test_an_end_within_an_enclosure_is_the_engines(monkeypatch, outcomes):
     scene = crowded(7)
     events, _, _, _ = run(scene, 60)
     ends = [
-        start_tiling(scene, "lazy", scene._start).vertices.frame.exact_time(e[3]) for e in events
+        start_tiling(scene, "lazy", scene._start).vertices.normalization.exact_time(e[3])
+        for e in events
     ]
     kinetic, found = start_tiling(scene, "lazy", scene._start), []
     for end in ends:

@@ -48,7 +48,7 @@ TINY = QQ(1, 10**40)
 
 def certifier_at(moving, t, *, exact_only=False):
     certifier = Certifier(moving, START, END, exact_only=exact_only)
-    low, high = moving.frame.time(t)
+    low, high = moving.normalization.time(t)
     certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
     return certifier
 
@@ -70,9 +70,9 @@ def test_the_order_of_coordinates_now(moving, t, exact_only):
 def test_the_filter_of_coordinates_is_right_at_irrational_times_too(moving, t):
     """Its sign holds all through the enclosure of now."""
     certifier = certifier_at(moving, t)
-    low, high = moving.frame.time(t)
+    low, high = moving.normalization.time(t)
     certifier.move_to(EventTime(low, high + 2.0**-20, -1, -1, -1, AlgebraicNumber(t)), [])
-    ends = [moving.frame.exact_time(x) for x in (low, high + 2.0**-20)]
+    ends = [moving.normalization.exact_time(x) for x in (low, high + 2.0**-20)]
     for a, b in product(moving.all, repeat=2):
         for axis in (0, 1):
             s = coordinate_order(certifier, a, b, axis)
@@ -131,9 +131,9 @@ def test_boxes_contain_what_is_there_now(moving, t):
     boxes = boxes_now(certifier_at(moving, t), moving.all)
     for vertex, (x_low, x_high, y_low, y_high) in zip(moving.all, boxes.tolist(), strict=True):
         x, y = vertex.track.at(t)
-        frame = moving.frame
+        normalization = moving.normalization
         for value, low, high, k in ((x, x_low, x_high, 0), (y, y_low, y_high, 1)):
-            in_frame = (value - frame.center[k]) / QQ(2) ** frame.scale[k]
+            in_frame = (value - normalization.center[k]) / QQ(2) ** normalization.scale[k]
             assert low <= in_frame <= high
 
 
@@ -182,7 +182,7 @@ def test_many_certificates_at_once(moving, t):
         if len({id(v.track) for v in abc}) < 3 or s == 0:
             continue
         time = None if low == INFINITY else EventTime(low, high, a, b, c)
-        until = END if time is None else min(END, moving.frame.exact_time(time.low))
+        until = END if time is None else min(END, moving.normalization.exact_time(time.low))
         if until > t:
             assert {turn(abc, t + (until - t) * QQ(k, 7)) for k in range(1, 7)} == {s}
         if time is not None:

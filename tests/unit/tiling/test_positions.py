@@ -60,7 +60,7 @@ times = st.one_of(
 @given(vertices=four_points(), time=times)
 def test_a_certain_sign_is_the_exact_one(vertices, time):
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
-    low, high = vertices.frame.enclosure(time)
+    low, high = vertices.normalization.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
     positions = certifier.positions
     a, b, c, d = vertices.all
@@ -124,7 +124,7 @@ def test_what_is_on_one_line_stays_open(place, step, along, path, half, time):
     ]
     vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
-    low, high = vertices.frame.enclosure(time)
+    low, high = vertices.normalization.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
 
     assert certifier.positions.orientation(*list(vertices.all)[:3]) == 0
@@ -161,7 +161,7 @@ def test_one_position_with_a_large_error_leaves_all_open(corner):
     vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
     time = AlgebraicNumber.root((ZZ(-2), ZZ(0), ZZ(1)), QQ(1), QQ(2))
-    low, high = vertices.frame.enclosure(time)
+    low, high = vertices.normalization.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
 
     for abcd in permutations(vertices.all):

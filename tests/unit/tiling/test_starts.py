@@ -144,7 +144,7 @@ def test_stars_that_doubles_sort_wrongly_are_sorted_by_predicates(monkeypatch):
 @pytest.mark.parametrize("unit", [1.0, 2.0**-40, 2.0**40, 2.0**90])
 @pytest.mark.parametrize("end", [1, 2**-20, 2**20])
 def test_starts_of_bodies_of_doubles(unit, end, monkeypatch):
-    """Of any size, for spans of any length: the frame scales."""
+    """Of any size, for spans of any length: the normalization scales."""
     compared(doubled(0, unit=unit, span=end), monkeypatch)
     exact = arrays_of(crowded(25).bodies, (0, end), unit=unit)
     assert linear_rows(exact.bodies, exact._start, exact._end) is not None
