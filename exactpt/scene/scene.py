@@ -14,7 +14,6 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
-from exactpt.renamed import warn_renamed
 from exactpt.scene.simple import check_simple
 
 if TYPE_CHECKING:
@@ -315,6 +314,8 @@ class Scene:
     @property
     def is_rounded(self) -> bool:
         """`has_radius` under its former name, with a `DeprecationWarning`."""
+        from exactpt.renamed import warn_renamed
+
         warn_renamed("Scene.is_rounded", "has_radius")
         return self.has_radius
 
