@@ -65,8 +65,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
             output.progress(f"{bodies} bodies, {tiling}")
             words = [tiling, *map(str, (bodies, sizes.events, sizes.contacts, seed))]
             command = [sys.executable, "-m", "benchmarks.large", *words]
-            told = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-            rows.append(json.loads(told))
+            printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+            rows.append(json.loads(printed))
     output.table("large", rows)
 
 

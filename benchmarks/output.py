@@ -70,8 +70,8 @@ class Output:
         writer.writerows(rows)
         self.write(f"{name}.csv", text.getvalue())
         self.say("")
-        told = tell or rows
-        for line in _aligned(list(told[0]), told):
+        printed = tell or rows
+        for line in _aligned(list(printed[0]), printed):
             self.say(line)
 
     def lines(

@@ -77,7 +77,7 @@ class Measured(NamedTuple):
         events: number of events up to the contact, the end, or the bound.
         seconds: processor time of these events.
         alone: processor time of these events without the contact that may end them.
-        told: the same in a `Simulation`, at whose events nobody looks.
+        simulated: the same in a `Simulation`, whose events are not read.
         exact: exact decisions per thousand decisions.
         kilobytes: memory of everything that the start has made.
     """
@@ -89,7 +89,7 @@ class Measured(NamedTuple):
     events: int
     seconds: float
     alone: float
-    told: float
+    simulated: float
     exact: float
     kilobytes: float
 
@@ -101,7 +101,7 @@ class Measured(NamedTuple):
     @property
     def ratio(self) -> float | None:
         """How many times as long the events of a simulation take; None without events."""
-        return self.told / self.alone if self.events else None
+        return self.simulated / self.alone if self.events else None
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
@@ -149,8 +149,10 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
     kilobytes = memory_of(lambda: start_tiling(given, tiling, given._start))
-    alone, told = (min(times) for times in zip(*((m.alone, m.told) for m in runs), strict=True))
-    return best._replace(alone=alone, told=told, kilobytes=kilobytes)
+    alone, simulated = (
+        min(times) for times in zip(*((m.alone, m.simulated) for m in runs), strict=True)
+    )
+    return best._replace(alone=alone, simulated=simulated, kilobytes=kilobytes)
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
@@ -166,13 +168,13 @@ def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
         max(pending, kinetic.stats.most),
         happened,
         seconds,
-        *_alone_and_told(scene, tiling, happened),
+        *_alone_and_simulated(scene, tiling, happened),
         1000 * exact / max(1, exact + filtered),
         0.0,
     )
 
 
-def _alone_and_told(scene: Scene, tiling: str, events: int) -> tuple[float, float]:
+def _alone_and_simulated(scene: Scene, tiling: str, events: int) -> tuple[float, float]:
     """Processor time of some events of a tiling, and of the same events of a simulation."""
     kinetic = start_tiling(fresh(scene), tiling, scene._start)
     simulation = Simulation(fresh(scene), tiling=tiling)
@@ -180,8 +182,8 @@ def _alone_and_told(scene: Scene, tiling: str, events: int) -> tuple[float, floa
     if other is None or events == 0:
         return 0.0, 0.0
     _, alone = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
-    _, told = timed(lambda: _pass(other, simulation.run(), events))
-    return alone, told
+    _, simulated = timed(lambda: _pass(other, simulation.run(), events))
+    return alone, simulated
 
 
 def _events(scene: Scene, kinetic: Tiling) -> Iterable[object]:
@@ -246,7 +248,7 @@ def _row(family: str, tiling: str, scene: Scene, size: int, run: Measured) -> Ro
         "most": run.most,
         "events": run.events,
         "us an event": run.per_event,
-        "told": run.ratio,
+        "simulation": run.ratio,
         "exact in 1000": run.exact,
         "kilobytes": run.kilobytes,
     }

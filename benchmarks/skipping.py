@@ -172,11 +172,11 @@ def _modules(scene: Scene, method: str) -> tuple[int, int]:
             f"exactpt.first_contact(exactpt.Scene.load({str(path)!r}), method={method!r})\n"
             f"print(sum(m.split('.')[0] == 'exactpt' for m in sys.modules))\n"
         )
-        told = _told([sys.executable, "-c", code], package.parent)
-    return int(told), sum(1 for _ in package.rglob("*.py"))
+        printed = _printed([sys.executable, "-c", code], package.parent)
+    return int(printed), sum(1 for _ in package.rglob("*.py"))
 
 
-def _told(command: Sequence[str], where: Path) -> str:
+def _printed(command: Sequence[str], where: Path) -> str:
     environment = {**os.environ, "PYTHONPATH": str(where)}
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
     return done.stdout

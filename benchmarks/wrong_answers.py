@@ -62,7 +62,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
     names = [_short_name(method) for method in methods]
     rows: list[Row] = []
-    told: list[Row] = []
+    shown: list[Row] = []
     shares: list[list[float | None]] = []
     for family, make in FAMILIES.items():
         scenes = [make(Random(f"{family}:{seed}:{i}")) for i in range(sizes.scenes)]
@@ -88,8 +88,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
             if method in EXACT and (wrong.total or wrong.scenes < len(scenes)):
                 raise AuditError(f"{method.name} {method.setting}, {family}: {wrong}")
         shares.append(line)
-        told.append(short)
-    output.table("wrong-answers", rows, told)
+        shown.append(short)
+    output.table("wrong-answers", rows, shown)
     output.shares("wrong-answers", "Share of wrong answers", list(FAMILIES), names, shares)
 
 

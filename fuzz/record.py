@@ -38,8 +38,8 @@ def record(families: Sequence[str], count: int, seed: int = 0) -> Iterator[str]:
         yield f"{family} {turn} pairs {digest(_told(contact))}"
         for tiling in tilings_of(scene):
             run = _run(scene, tiling, last)
-            told = " ".join(f"{name} {digest(data)}" for name, data in run.items())
-            yield f"{family} {turn} {tiling} {told}"
+            printed = " ".join(f"{name} {digest(data)}" for name, data in run.items())
+            yield f"{family} {turn} {tiling} {printed}"
 
 
 def differences(old: Sequence[str], new: Sequence[str]) -> list[str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from benchmarks.engines.asking import COLUMNS, WRONG, Result
-from benchmarks.engines.reproducer import told
+from benchmarks.engines.reproducer import description
 from exactpt.testing import FAMILIES
 
 __all__ = ["page"]
@@ -94,7 +94,7 @@ def _section(result: Result, sources: Mapping[str, str]) -> Iterator[str]:
     yield ""
     if result.worst is not None:
         name = sources[result.name]
-        said = f"{result.worst.verdict}: {told(result.worst)}"
+        said = f"{result.worst.verdict}: {description(result.worst)}"
         yield f"The worst, shrunken ([{name}]({name})): {said}."
         yield ""
     if result.reasons:

@@ -4,7 +4,7 @@ An answer that is not the truth keeps the promise if it is explained by
 
 * a distance d: bodies at most d apart may count as touching, and bodies that sink into each other
   by at most d as apart;
-* a lateness: a contact may be told so much later;
+* a lateness: a contact may be reported so much later;
 * a brevity: a contact that lasts for less may be skipped.
 
 Distances at the times that are answered, and depths, are compared exactly with d, which is itself

@@ -12,7 +12,7 @@ from benchmarks.engines.asking import Finding, Result
 from benchmarks.engines.domain import as_asked
 from exactpt.testing.comparing import shown_time
 
-__all__ = ["reproducer", "reproducer_name", "told"]
+__all__ = ["description", "reproducer", "reproducer_name"]
 
 _PYTHON: Final = """
 
@@ -53,7 +53,7 @@ def reproducer(result: Result, worst: Finding, adapter: Path) -> str:
     promises = "".join(f" «{words}» ({where})." for words, where in result.promises)
     engine = f"{result.name} ({result.about['package']} {result.version})"
     head = [
-        f"{engine}, {worst.verdict}: {told(worst)}.",
+        f"{engine}, {worst.verdict}: {description(worst)}.",
         f"It promises:{promises}",
         f"Written by `python -m benchmarks engines`; {result.about['install']}.",
     ]
@@ -73,7 +73,7 @@ def reproducer(result: Result, worst: Finding, adapter: Path) -> str:
     return "\n".join(mark + line for line in lines) + "\n\n" + source.rstrip() + "\n" + end
 
 
-def told(worst: Finding) -> str:
+def description(worst: Finding) -> str:
     """An answer and the truth in words."""
     said = "no contact" if worst.answer is None else str(worst.answer)
     time = worst.truth.time

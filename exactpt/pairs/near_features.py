@@ -122,7 +122,9 @@ class NearFeatures:
 
     def _during(self, begin: QQ, end: QQ) -> Boxes:
         """Return the boxes of all vertices during an interval."""
-        return self._boxes.during(self._normalization.time(begin)[0], self._normalization.time(end)[1])
+        return self._boxes.during(
+            self._normalization.time(begin)[0], self._normalization.time(end)[1]
+        )
 
     def _between(self, begin: QQ, end: QQ) -> Boxes:
         """Return the boxes of all vertices in the middle of an interval."""

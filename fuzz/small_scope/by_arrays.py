@@ -81,9 +81,9 @@ def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -
         return "enclosure"
     if KINDS[contacts.kind[k]] != expected.kind:
         return "kind"
-    told = [int(row[k]) for row in (contacts.body, contacts.vertex)]
-    told += [int(row[k]) for row in (contacts.edge, contacts.other_vertex)]
-    return None if told == _first_incidence(scene, expected) else "pairs"
+    printed = [int(row[k]) for row in (contacts.body, contacts.vertex)]
+    printed += [int(row[k]) for row in (contacts.edge, contacts.other_vertex)]
+    return None if printed == _first_incidence(scene, expected) else "pairs"
 
 
 def _first_incidence(scene: Scene, expected: Contact) -> list[int]:

@@ -21,8 +21,8 @@ def scene(tmp_path):
 def run(capsys, *words):
     with pytest.raises(SystemExit) as ended:
         main(["collide", *map(str, words)])
-    told = capsys.readouterr()
-    return ended.value.code, told.out, told.err
+    reported = capsys.readouterr()
+    return ended.value.code, reported.out, reported.err
 
 
 def test_bounds_in_words_and_as_json(scene, capsys):

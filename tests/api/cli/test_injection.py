@@ -95,10 +95,10 @@ def test_refusals(folder, capsys, name):
         ("generate", name),
         (name,),
     ]
-    told = [code_of(*line) for line in lines]
+    reported = [code_of(*line) for line in lines]
 
     out, err = capsys.readouterr()
-    assert (out, set(told)) == ("", {2})
+    assert (out, set(reported)) == ("", {2})
     assert is_harmless(err)
     assert len(err.splitlines()) == len(wounds) + len(lines)
 

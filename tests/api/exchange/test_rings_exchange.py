@@ -112,12 +112,12 @@ def test_repair_says_what_it_changes(tmp_path, capsys):
     )
     assert run("convert", source, target) == 2
     assert run("convert", source, target, "--repair") == 0
-    told = [line for line in capsys.readouterr().err.splitlines() if "repaired" in line]
-    assert len(told) == 2
-    assert "geometry 0: repaired 'body 0' (Self-intersection" in told[0]
-    assert "1 polygon of 12 vertices became 2 polygons of 16 vertices, which touch" in told[0]
-    assert "geometry 1: repaired 'body 1' (Self-intersection" in told[1]
-    assert "1 polygon of 4 vertices became 2 polygons of 6 vertices, which touch" in told[1]
+    message = [line for line in capsys.readouterr().err.splitlines() if "repaired" in line]
+    assert len(message) == 2
+    assert "geometry 0: repaired 'body 0' (Self-intersection" in message[0]
+    assert "1 polygon of 12 vertices became 2 polygons of 16 vertices, which touch" in message[0]
+    assert "geometry 1: repaired 'body 1' (Self-intersection" in message[1]
+    assert "1 polygon of 4 vertices became 2 polygons of 6 vertices, which touch" in message[1]
     bodies = Scene.load(target).bodies
     names = ["body 0", "body 0 2", "body 1", "body 1 2", "body 2"]
     assert [body.name for body in bodies] == names
@@ -135,7 +135,7 @@ def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "hole, options, told",
+    "hole, options, message",
     [
         ("(1 1, 5 5, 3 3, 1 1)", [], "a hole of polygon 'body 0' has no area: mend it (--repair)"),
         ("(0 0, 5 2, 2 5, 0 0)", [], "fill its holes (--holes fill), mend it (--repair)"),
@@ -144,13 +144,13 @@ def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
         ("(0 0, 5 2, 2 5, 0 0)", ["--holes", "fill"], None),
     ],
 )
-def test_a_flat_hole_and_one_that_touches_the_outline(tmp_path, capsys, hole, options, told):
+def test_a_flat_hole_and_one_that_touches_the_outline(tmp_path, capsys, hole, options, message):
     """The latter is valid for shapely, so nothing mends it."""
     source, target = tmp_path / "a.wkt", tmp_path / "a.json"
     source.write_text(f"POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), {hole})")
 
-    assert run("convert", source, target, *options) == (2 if told else 0)
-    assert told is None or told in capsys.readouterr().err
+    assert run("convert", source, target, *options) == (2 if message else 0)
+    assert message is None or message in capsys.readouterr().err
 
 
 def test_the_command_has_the_choices(tmp_path):

@@ -69,7 +69,7 @@ def test_a_motion_is_kept_by_with_motion_and_at():
 
 
 @pytest.mark.parametrize(
-    ("parts", "told"),
+    ("parts", "message"),
     [
         ([{"vertices": BOX, "holes": [FAR]}], "a hole is outside of its outline: vertex 4 at"),
         ([{"vertices": BOX, "holes": [HOLE, [(2, 2), (3, 2), (2, 3)]]}], "inside another hole"),
@@ -89,8 +89,8 @@ def test_a_motion_is_kept_by_with_motion_and_at():
         ([FAR, 5], "part 1: outline: vertices: not a list"),
     ],
 )  # fmt: skip
-def test_what_is_no_body_is_refused(parts, told):
-    with pytest.raises(InputError, match=f"body 'b': .*{told}"):
+def test_what_is_no_body_is_refused(parts, message):
+    with pytest.raises(InputError, match=f"body 'b': .*{message}"):
         of(*parts)
 
 
@@ -99,7 +99,7 @@ def test_nested_parts_are_allowed():
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "message"),
     [
         ({"holes": [HOLE], "parts": [BOX]}, "holes are for a body of vertices"),
         ({"parts": [BOX], "closed": False}, "an open chain has neither holes nor parts"),
@@ -108,13 +108,13 @@ def test_nested_parts_are_allowed():
         ({"vertices": BOX, "holes": 3}, "holes: not a list: 3"),
     ],
 )
-def test_what_does_not_go_together(given, told):
-    with pytest.raises(InputError, match=f"body 'b': {told}"):
+def test_what_does_not_go_together(given, message):
+    with pytest.raises(InputError, match=f"body 'b': {message}"):
         Body("b", **given)
 
 
 @pytest.mark.parametrize(
-    ("body", "told"),
+    ("body", "message"),
     [
         ('"vertices": [[0,0],[9,0],[0,9]], "holes": [[[1,1],[2,1],["x",2]]]',
          "body 'b': hole 0: vertex 2: x: not a number: 'x'"),
@@ -133,10 +133,10 @@ def test_what_does_not_go_together(given, told):
         ('"keyframes": [], "parts": []', 'needs either "vertices" or "keyframes" or "parts"'),
     ],
 )  # fmt: skip
-def test_what_is_wrong_in_a_file_is_named(body, told):
+def test_what_is_wrong_in_a_file_is_named(body, message):
     with pytest.raises(InputError) as raised:
         loads(f'{{"exactpt": 1, "time": [0, 1], "bodies": [{{"name": "b", {body}}}]}}')
-    assert told in str(raised.value)
+    assert message in str(raised.value)
 
 
 def test_one_hole_inside_of_another_among_many():

@@ -197,11 +197,11 @@ def test_a_contact_that_was_met_is_known_after_the_run_is_restored(tmp_path):
     expected = kinds(whole)
     cut = Simulation(fall(Body("far", [(90, 0)])))
     events = cut.run(on_contact=look_elsewhere)
-    told = [next(events).kind for _ in range(1 + expected.index("contact"))]
+    reported = [next(events).kind for _ in range(1 + expected.index("contact"))]
     cut.save(tmp_path / "run.json")
     restored = Simulation.restore(tmp_path / "run.json")
 
-    assert told + kinds(restored) == expected
+    assert reported + kinds(restored) == expected
     assert restored.contacts == whole.contacts == 1
 
 

@@ -433,10 +433,10 @@ def test_the_certificates_of_a_tile_have_the_roots_of_the_engine(page, at):
     owner = [(body, i) for body in scene.bodies for i in range(body.size)]
     seen = 0
     for index in range(len(tiles)):
-        told = page.execute_script("return exactpt.certificates(arguments[0])", index)
-        roots = [QQ(c["root"]) for c in told if c["root"] is not None]
+        reported = page.execute_script("return exactpt.certificates(arguments[0])", index)
+        roots = [QQ(c["root"]) for c in reported if c["root"] is not None]
         assert roots == sorted(roots)
-        for certificate in told:
+        for certificate in reported:
             f = [int(c) for c in certificate["polynomial"]]
             for t in (at, at + QQ(1, 1000)):
                 (ax, ay), (bx, by), (cx, cy) = (

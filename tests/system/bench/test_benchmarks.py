@@ -190,7 +190,7 @@ def test_scaling(results, undrawn):
     crowds = [row for row in rows if row["family"] == "convex crowd"]
     assert all(int(row["most"]) <= 30 * int(row["size"]) for row in crowds)
     assert all(0 < int(row["pending"]) <= int(row["made"]) for row in crowds)
-    assert all((row["told"] != "") == (int(row["events"]) > 0) for row in rows)
+    assert all((row["simulation"] != "") == (int(row["events"]) > 0) for row in rows)
     far = [r for r in rows if (r["family"], r["tiling"]) == ("combs, far apart", "mixed")]
     assert [row["made"] for row in far] == ["16", "16"]
     assert len(results.rows("scaling-exponents")) == 3 * 5

@@ -344,8 +344,8 @@ def test_a_reproducer_says_what_its_head_says(program, tmp_path):
     said = re.search(r"answer: (.*)\ntruth:  ", done.stdout)
     head = " ".join(re.findall(r"^(?:#|//) (.*)", text, re.MULTILINE))
     if f"({package} {version})" in head:
-        told = "no contact" if said.group(1) in ("None", "null") else said.group(1)
-        assert f": {told}; the truth is" in head
+        reported = "no contact" if said.group(1) in ("None", "null") else said.group(1)
+        assert f": {reported}; the truth is" in head
     else:
         assert said or done.returncode != 0
 

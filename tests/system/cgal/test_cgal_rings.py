@@ -42,5 +42,5 @@ def test_both_witnesses_agree(family):
                 shape._replace(parts=[part[::-1] for part in shape.parts]) for shape in shapes
             ]
             if any(shape.parts for shape in swapped):
-                told = witness.check_tiling(tile, swapped).reason
-                assert "is clockwise" in told or "is not one region" in told
+                reported = witness.check_tiling(tile, swapped).reason
+                assert "is clockwise" in reported or "is not one region" in reported

@@ -1,4 +1,4 @@
-"""What once was told as a broken invariant (exit code 3), or by a wrong exit code."""
+"""Errors that were once reported as a broken invariant (exit code 3), or by a wrong exit code."""
 
 import os
 import subprocess

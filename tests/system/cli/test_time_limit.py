@@ -101,9 +101,9 @@ def test_an_event_that_never_ends_leaves_the_time_before_it(scene, monkeypatch, 
     assert run(name, scene, 1) == 4
 
     said = capsys.readouterr()
-    told = json.loads(said.out)["reached"] if name == "collide" else said.err.split()[-1]
+    reported = json.loads(said.out)["reached"] if name == "collide" else said.err.split()[-1]
     assert len(times) == 5
-    assert float(times[2]) < float(Fraction(told)) < float(times[4])
+    assert float(times[2]) < float(Fraction(reported)) < float(times[4])
 
 
 def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):

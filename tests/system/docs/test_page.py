@@ -149,8 +149,8 @@ def test_the_animation_is_that_of_the_command(run, name):
     ],
 )  # fmt: skip
 def test_bad_input_gets_one_line(scene, says):
-    for told in (browser.answer(scene, "auto", "auto"), browser.picture(scene, "auto")):
-        error = json.loads(told)["error"]
+    for reported in (browser.answer(scene, "auto", "auto"), browser.picture(scene, "auto")):
+        error = json.loads(reported)["error"]
         assert error.startswith(says)
         assert error.isprintable()
 

@@ -23,9 +23,9 @@ ROOT = Path(__file__).parents[3]
 
 def run(formats, count, keep, seed=0):
     """The check, its counts, and its findings."""
-    check, progress, told = Files(formats, seed, keep), Progress(), []
-    campaign(check, progress, told.append, count=count)
-    return check, progress.counts, told
+    check, progress, reported = Files(formats, seed, keep), Progress(), []
+    campaign(check, progress, reported.append, count=count)
+    return check, progress.counts, reported
 
 
 @pytest.mark.parametrize("kind", FORMATS)
@@ -94,11 +94,11 @@ def test_faults_are_noticed_and_kept(tmp_path, monkeypatch, target, how, fault):
     monkeypatch.setattr(target, how)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 
-    _, counts, told = run(["scene"], 3, tmp_path / "found")
+    _, counts, reported = run(["scene"], 3, tmp_path / "found")
 
     assert counts["scene", "FAULT"] == counts["scene", "found"] == 3
-    assert all(fault in found.why for found in told)
-    for number, found in enumerate(told):
+    assert all(fault in found.why for found in reported)
+    for number, found in enumerate(reported):
         content = hostile("scene", number, 0).content
         assert found.files == {tmp_path / "found" / f"scene-0-{number}": content}
 

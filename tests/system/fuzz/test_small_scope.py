@@ -382,8 +382,8 @@ def test_arrays_are_asked_for_two_bodies_that_translate():
     seen = looks([planned(n) for n in range(50)])
 
     for one in seen:
-        told = [answer.fault for answer in one.answers if answer.method == ARRAYS]
-        assert told == ([None] if suits(one.planned.scene) else [])
+        reported = [answer.fault for answer in one.answers if answer.method == ARRAYS]
+        assert reported == ([None] if suits(one.planned.scene) else [])
     orders = Counter(one.planned.cell.order for one in seen if suits(one.planned.scene))
     assert set(orders) == {"rest", "linear", "square", "cube", "fourth"}
 
@@ -420,15 +420,15 @@ def _wrong(attribute, value):
 def test_a_wrong_answer_of_arrays_is_found(monkeypatch, attribute, value, fault):
     monkeypatch.setattr("exactpt.testing.truth.first_contacts", _wrong(attribute, value))
 
-    told = [
+    reported = [
         answer.fault
         for one in looks([planned(n) for n in range(50)])
         for answer in one.answers
         if answer.method == ARRAYS
     ]
 
-    assert set(told[::4]) == {fault}
-    assert set(told[1::4]) == {None}
+    assert set(reported[::4]) == {fault}
+    assert set(reported[1::4]) == {None}
 
 
 def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
@@ -440,10 +440,10 @@ def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
     monkeypatch.setattr("exactpt.testing.truth.first_contacts", ask)
     scenes = [s.scene for s in map(planned, range(200)) if suits(s.scene)]
 
-    told = verdicts(scenes, [first_contact_allpairs(scene) for scene in scenes])
+    reported = verdicts(scenes, [first_contact_allpairs(scene) for scene in scenes])
 
     wrong = [scene.vertex_count > 2 for scene in scenes]
-    assert [v.fault == "ZeroDivisionError" for v in told] == wrong
+    assert [v.fault == "ZeroDivisionError" for v in reported] == wrong
     assert not all(wrong)
 
 

@@ -30,12 +30,12 @@ def test_a_seed_gives_the_same_soak():
 
 
 def test_it_lasts_as_long_as_it_is_asked_to():
-    soaked, told = Soak(0, "lazy"), []
+    soaked, reported = Soak(0, "lazy"), []
 
-    soaked.run(1.0, told.append)
+    soaked.run(1.0, reported.append)
 
-    assert len(told) == len(soaked.samples) > 3
-    assert len(table(soaked)) == len(told) + 2
+    assert len(reported) == len(soaked.samples) > 3
+    assert len(table(soaked)) == len(reported) + 2
 
 
 def test_a_copy_that_differs_is_noticed(monkeypatch):

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a script for sh
 
 @pytest.fixture
 def ci(tmp_path):
-    """Run it with a `make` that prints its target, and does what a shell is told."""
+    """Run it with a `make` that prints its target, and runs what a shell would."""
 
     def run(does=":"):
         make = tmp_path / "make"
@@ -36,8 +36,8 @@ def test_every_step_is_made_and_its_minutes_told(ci):
     made, minutes = done.stdout.split("\nminutes:\n")
     assert done.returncode == 0
     assert made == "".join(f"made {s} {'ci' if s == 'test' else 'dev'}\n" for s in STEPS)
-    told = re.findall(r"^ *\d+:\d\d  (.*)$", minutes, re.MULTILINE)
-    assert told == [*(f"make {s}" for s in STEPS), "in all"]
+    reported = re.findall(r"^ *\d+:\d\d  (.*)$", minutes, re.MULTILINE)
+    assert reported == [*(f"make {s}" for s in STEPS), "in all"]
 
 
 @pytest.mark.parametrize("step", STEPS)

@@ -242,12 +242,12 @@ def test_a_batch_that_is_interrupted_or_killed_goes_on(tmp_path, how, code):
     while chunks_in(journal) < 2 and process.poll() is None:
         time.sleep(0.002)
     process.send_signal(how)
-    _, told = process.communicate(timeout=60)
+    _, reported = process.communicate(timeout=60)
 
     assert process.returncode == code
-    assert "Traceback" not in told
+    assert "Traceback" not in reported
     if how == signal.SIGINT:
-        assert "is answered, in answers.jsonl.part and answers.jsonl.journal; the same" in told
+        assert "is answered, in answers.jsonl.part and answers.jsonl.journal; the same" in reported
     assert not out.exists()
     assert chunks_in(journal) >= 2
     summary = run(scenes, out)
@@ -274,9 +274,11 @@ def test_lines_however_written(tmp_path, kind):
     summary = run(scenes, out)
 
     assert (summary.scenes, summary.failures) == (count, 0)
-    told = [json.loads(line) for line in out.read_text().splitlines()]
-    assert [data.pop("line") for data in told] == ([4] if kind == "blank lines" else [1, 2][:count])
-    assert told == list(answers(SCENES[:count]))
+    reported = [json.loads(line) for line in out.read_text().splitlines()]
+    assert [data.pop("line") for data in reported] == (
+        [4] if kind == "blank lines" else [1, 2][:count]
+    )
+    assert reported == list(answers(SCENES[:count]))
 
 
 def test_what_is_not_utf8_is_an_error_of_its_line(tmp_path):
@@ -299,8 +301,8 @@ def test_a_line_that_is_too_long_is_an_error_of_its_own(tmp_path, most):
 
     assert summary.scenes == 4
     assert summary.failures == (4 if most == 100 else 2)
-    told = [json.loads(line) for line in out.read_text().splitlines()]
-    assert told[1] == {"line": 2, "error": f"more than {most} bytes"}
+    reported = [json.loads(line) for line in out.read_text().splitlines()]
+    assert reported[1] == {"line": 2, "error": f"more than {most} bytes"}
     longest = max(len(chunk.text) for chunk in Lines(scenes, most).chunks({}, 4096))
     assert longest < 300_000
 
@@ -351,13 +353,15 @@ def test_any_options_of_one_scene(tmp_path, given, monkeypatch, capsys):
 
     assert left.value.code == 0
     assert (tmp_path / "answers.jsonl").read_text() == expected(lines, options)
-    told = [json.loads(line)[key] for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
+    reported = [
+        json.loads(line)[key] for line in (tmp_path / "answers.jsonl").read_text().splitlines()
+    ]
     (tmp_path / "one.json").write_text(lines[0])
     if key != "approach":
         asked = given.replace("--until 3 --since 1", "--since 1 --until 3").split()
         with pytest.raises(SystemExit):
             main(["collide", "one.json", "--json", *asked])
-        assert json.loads(capsys.readouterr().out)[key] == told[0]
+        assert json.loads(capsys.readouterr().out)[key] == reported[0]
 
 
 def test_the_command_counts_failures(scenes, tmp_path, capsys):
@@ -368,8 +372,8 @@ def test_the_command_counts_failures(scenes, tmp_path, capsys):
 
     assert left.value.code == 2
     assert out.read_text() == EXPECTED
-    (told,) = capsys.readouterr().err.splitlines()
-    assert told.startswith(
+    (reported,) = capsys.readouterr().err.splitlines()
+    assert reported.startswith(
         f"exactpt: {len(MALFORMED)} of {len(SCENES)} scenes have no answer; line"
     )
 
@@ -390,9 +394,9 @@ def test_a_budget_is_one_of_each_scene(tmp_path):
 
 @pytest.mark.parametrize("line", [SCENES[0], TURNING[0]])
 def test_no_time_at_all(line):
-    (told,) = answers([line], Options(max_seconds=0))
+    (reported,) = answers([line], Options(max_seconds=0))
 
-    assert told == {"error": "time limit exceeded"}
+    assert reported == {"error": "time limit exceeded"}
 
 
 def test_workers_are_deaf_to_ctrl_c_from_their_first_moment_on():

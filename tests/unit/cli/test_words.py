@@ -70,15 +70,15 @@ def test_a_bar_on_a_terminal(scene, monkeypatch):
 @pytest.mark.parametrize("command", ["simulate", "draw"])
 def test_the_runs_tell_the_bar(scene, monkeypatch, command):
     screen = Terminal()
-    told = []
+    reported = []
     monkeypatch.setattr("exactpt.cli.progress.sys.stderr", screen)
-    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar(told))
+    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar(reported))
     more = ["-o", str(scene.with_name("film.html"))] if command == "draw" else []
 
     cli.main([command, str(scene), *more], standalone_mode=False)
 
-    assert told == sorted(told)
-    assert told[-1] == 350  # the contact, at t = 7 of 20
+    assert reported == sorted(reported)
+    assert reported[-1] == 350  # the contact, at t = 7 of 20
 
 
 def test_lines_with_an_estimate_where_there_is_no_terminal(monkeypatch, capsys):

@@ -13,7 +13,7 @@ from exactpt.scene.generate import FAMILIES, POINTS, generate
 BOX = [(0, 0), (2, 0), (2, 1), (0, 1)]
 
 
-def told(contact):
+def summary(contact):
     return None if contact is None else json.dumps(contact.to_json())
 
 
@@ -39,7 +39,7 @@ def test_a_body_of_a_scene_among_the_others(family):
             expected = without_planner(others, moving, (scene.start, scene.end))
             pairs = () if expected is None else expected.pairs
             if all(body.name in (pair.body, pair.other) for pair in pairs):
-                assert told(planner.first_contact(body, motion)) == told(expected)
+                assert summary(planner.first_contact(body, motion)) == summary(expected)
 
 
 def test_obstacles_may_overlap_and_close_on_themselves():

@@ -15,7 +15,7 @@ FRAME = [(0, 0), (10, 0), (10, 10), (0, 10)]
 HOLE = [(1, 1), (9, 1), (9, 9), (1, 9)]
 
 
-def told(contact):
+def summary(contact):
     if contact is None:
         return None
     return contact.time.to_json(), contact.kind, contact.pairs, contact.overlaps
@@ -33,12 +33,14 @@ def test_first_contacts_are_those_of_the_reference(family):
         scene = generate(family, seed)
         truth = first_contact_allpairs(scene)
         kinds.add(None if truth is None else truth.kind)
-        assert told(first_contact(scene)) == told(truth), seed
-        assert told(first_contact(scene, method="pairs")) == told(truth), seed
-        assert told(first_contact(scene, method="pairs", exact_only=True)) == told(truth), seed
+        assert summary(first_contact(scene)) == summary(truth), seed
+        assert summary(first_contact(scene, method="pairs")) == summary(truth), seed
+        assert summary(first_contact(scene, method="pairs", exact_only=True)) == summary(truth), (
+            seed
+        )
         for tiling in ("auto", *TILINGS):
             found = first_contact(scene, method="kinetic", tiling=tiling)
-            assert told(found) == told(truth), (seed, tiling)
+            assert summary(found) == summary(truth), (seed, tiling)
     assert {None, "vertex-edge"} < kinds
 
 
@@ -76,7 +78,7 @@ def test_normals_point_out_of_the_body(outline, hole):
 def test_what_shares_a_point_at_the_start(other, overlaps):
     scene = Scene([frame(), Body("other", other)], (0, 1))
     found, truth = first_contact(scene), first_contact_allpairs(scene)
-    assert told(found) == told(truth)
+    assert summary(found) == summary(truth)
     assert (found is not None) == overlaps
 
 
@@ -86,7 +88,7 @@ def test_a_part_alone_in_another_body_is_an_overlap():
         for small in ([[(2, 2), (3, 2), (2, 3)], [(50, 0), (51, 0), (50, 1)]],) * 2:
             scene = Scene([Body("a", parts=parts), Body("b", parts=small[::-1])], (0, 1))
             assert first_contact(scene).overlaps == (("a", "b"),)
-            assert told(first_contact(scene)) == told(first_contact_allpairs(scene))
+            assert summary(first_contact(scene)) == summary(first_contact_allpairs(scene))
 
 
 def test_parts_move_together():
@@ -101,7 +103,7 @@ def test_a_hole_that_closes_on_its_outline_touches_itself():
     ring = [{"x": [x, 1], "y": [y]} for x, y in HOLE]
     contact = first_contact(Scene([Body("b", FRAME, holes=[ring])], (0, 5)))
     assert (contact.kind, contact.time) == ("self", 1)
-    assert told(contact) == told(
+    assert summary(contact) == summary(
         first_contact_allpairs(Scene([Body("b", FRAME, holes=[ring])], (0, 5)))
     )
 
@@ -112,7 +114,7 @@ def test_a_ring_that_turns_around_a_body():
     turning = Body("frame", FRAME, holes=[hole], motion=Rigid([0, "1/4"], pivot=(5, 5)))
     scene = Scene([turning, slab], (0, 4))
     contact = first_contact(scene)
-    assert told(contact) == told(first_contact_allpairs(scene))
+    assert summary(contact) == summary(first_contact_allpairs(scene))
     assert contact is not None
     assert not contact.time.is_rational
 
@@ -139,12 +141,12 @@ def test_planners_answer_as_first_contacts(family):
         found = Planner(obstacles, (scene.start, scene.end)).first_contact(body, body.motion)
         names = [b.name for b in obstacles]
         search = PairsSearch(scene, ignoring=[names], ignoring_self=names)
-        assert told(found) == told(search.run_to_contact()), seed
+        assert summary(found) == summary(search.run_to_contact()), seed
 
 
 def test_the_tiling_of_points_refuses_them_in_one_line():
-    told = "^body 'frame': has 8 vertices: the incremental tiling is for points$"
-    with pytest.raises(InputError, match=told):
+    message = "^body 'frame': has 8 vertices: the incremental tiling is for points$"
+    with pytest.raises(InputError, match=message):
         first_contact(Scene([frame()], (0, 1)), tiling="incremental")
 
 

@@ -1,4 +1,4 @@
-"""First contacts of rounded bodies: by hand, against the definition, and how they are told."""
+"""First contacts of bodies with a radius: by hand, against the definition, and as text."""
 
 import json
 import pickle
@@ -182,7 +182,7 @@ def test_ignored_groups():
 
 
 def test_bodies_without_radius_among_rounded_ones():
-    """Whatever comes first counts; what comes at the same time is told together."""
+    """Whatever comes first counts; what comes at the same time is reported together."""
     point = Body("point", [(0, 5)], RIGHT)
 
     assert met(point, disc(), WALL).kind == "vertex-edge"
@@ -208,7 +208,7 @@ def test_a_contact_is_told():
     ]
 
 
-def told(contact):
+def summary(contact):
     return None if contact is None else contact.to_json()
 
 
@@ -221,7 +221,7 @@ def alike(scene):
         PairsSearch(scene, exact_only=True).run_to_contact(),
     ):
         assert contrast(expected, found) is None, (in_words(expected), in_words(found))
-        assert told(found) == told(expected)
+        assert summary(found) == summary(expected)
     return expected
 
 
@@ -338,7 +338,7 @@ def test_a_planner_finds_what_first_contact_does(family):
     planner = Planner(others, (scene.start, scene.end))
     expected = first_contact(scene, ignoring=[[other.name for other in others]])
     if expected is None or expected.kind != "self":
-        assert told(planner.first_contact(body, body.motion)) == told(expected)
+        assert summary(planner.first_contact(body, body.motion)) == summary(expected)
 
 
 def test_what_keeps_a_tiling_refuses_rounded_bodies():

@@ -24,7 +24,7 @@ from fuzz.questions.all_pairs import first_contact_allpairs
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]
 
 
-def told(contact):
+def summary(contact):
     return None if contact is None else json.dumps(contact.to_json())
 
 
@@ -36,7 +36,7 @@ def test_families(family, few, monkeypatch):
     for seed in range(3):
         scene = generate(family, seed)
         if linear_pieces(scene) is not None:
-            assert told(first_contact(scene)) == told(PairsSearch(scene).run_to_contact())
+            assert summary(first_contact(scene)) == summary(PairsSearch(scene).run_to_contact())
 
 
 def test_some_families_are_searched_by_rows_and_others_are_not():
@@ -99,7 +99,7 @@ def test_close_to_degeneracy(few, count, monkeypatch):
     for scene in scenes(count, f"close {few}"):
         assert linear_pieces(scene) is not None
         expected = first_contact_allpairs(scene)
-        assert told(first_contact(scene)) == told(expected)
+        assert summary(first_contact(scene)) == summary(expected)
         kinds.update({None} if expected is None else {pair.kind for pair in expected.pairs})
     assert kinds == {None, "vertex-edge", "vertex-vertex"}
 
@@ -113,7 +113,7 @@ def test_along_the_line_of_an_edge():
             contact = first_contact(Scene([table, slider], (0, 10)))
             expected = first_contact_allpairs(Scene([table, slider], (0, 10)))
             assert contact.time == time
-            assert told(contact) == told(expected)
+            assert summary(contact) == summary(expected)
 
 
 def bits(rng, count):
@@ -192,7 +192,7 @@ def test_two_segments_and_two_points_on_one_line():
         scene = Scene([Body("a", first, Translation([0, 1])), Body("b", second)], (0, 10))
         contact = first_contact(scene)
         assert contact.kind == "vertex-vertex"
-        assert told(contact) == told(first_contact_allpairs(scene))
+        assert summary(contact) == summary(first_contact_allpairs(scene))
 
 
 def crowd(count, seed=0):
@@ -228,7 +228,7 @@ def test_exact_vertices_are_made_for_what_may_touch_alone():
     made = [body for body in scene.bodies if body._shape.is_exact]
     assert contact is not None
     assert len(made) < 40
-    assert told(contact) == told(PairsSearch(scene).run_to_contact())
+    assert summary(contact) == summary(PairsSearch(scene).run_to_contact())
 
 
 def test_points_and_normals_are_computed_on_demand(monkeypatch):

@@ -190,14 +190,14 @@ def test_all_in_one_place(tmp_path, capsys, monkeypatch, command):
     source = tmp_path / "shapes.wkt"
     source.write_text(f"MULTIPOINT ({', '.join(['(1 1)'] * 100)})")
     assert convert(source) == 0
-    told = capsys.readouterr()
+    reported = capsys.readouterr()
     if command == "collide":
         with pytest.raises(SystemExit) as end:
             main(["collide", str(source.with_name("out.json"))])
-        told = capsys.readouterr()
-        assert (end.value.code, told.out) == (2, "")
+        reported = capsys.readouterr()
+        assert (end.value.code, reported.out) == (2, "")
 
-    assert told.err.endswith("more than 1000 pairs of bodies share a point at the start\n")
+    assert reported.err.endswith("more than 1000 pairs of bodies share a point at the start\n")
 
 
 COMMANDS = {

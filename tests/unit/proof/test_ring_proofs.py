@@ -97,10 +97,12 @@ def test_a_scene_in_which_a_hole_is_nowhere():
         forged = Scene.__new__(Scene)
         forged.bodies = (Body("frame", FRAME, holes=[hole]), scene.bodies[1])
         forged._start, forged._end = scene._start, scene._end
-        told = verdict(
+        reported = verdict(
             forged, [*header(scene_bytes(forged), forged._start, forged._end), *lines[3:]]
         )
-        assert any(words in told for words in ("not simple", "none can be", "a hole or part amiss"))
+        assert any(
+            words in reported for words in ("not simple", "none can be", "a hole or part amiss")
+        )
 
 
 @every(

@@ -41,10 +41,10 @@ def test_the_film_of_a_run_goes_on_after_contacts():
     assert film.contact is None
     times = [step.time for step in film.steps]
     assert times == sorted(set(times))
-    told = [c.words for step in film.steps for c in step.changes if c.words]
-    assert told.count("a new motion for ball") == told.count("ball and right come into contact") + (
-        told.count("ball and left come into contact")
-    )
+    reported = [c.words for step in film.steps for c in step.changes if c.words]
+    assert reported.count("a new motion for ball") == reported.count(
+        "ball and right come into contact"
+    ) + (reported.count("ball and left come into contact"))
     # The same edges and tiles are there at the same times.
     for mine, its in ((film.edges, plain.edges), (film.tiles, plain.tiles)):
         assert [when(film, s) for s in mine] == [when(plain, s) for s in its]
@@ -85,12 +85,12 @@ def test_frames_are_those_of_the_film():
 def test_a_film_as_a_file(tmp_path, ending, start):
     pil = pytest.importorskip("PIL.Image")
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
-    path, told = tmp_path / f"film{ending}", []
+    path, reported = tmp_path / f"film{ending}", []
 
     film = film_of(small())
-    movie.write_movie(film, path, seconds=1, done=lambda k, count: told.append((k, count)))
+    movie.write_movie(film, path, seconds=1, done=lambda k, count: reported.append((k, count)))
 
-    assert told == [(k, 21) for k in range(1, 22)]
+    assert reported == [(k, 21) for k in range(1, 22)]
 
     data = path.read_bytes()
     assert data.startswith(start) or data[4:8] == start
@@ -172,15 +172,15 @@ def test_films_without_frames_are_refused(tmp_path, options):
 @pytest.mark.parametrize("ending", [".gif", ".mp4"])
 def test_bug_the_frames_of_a_film_had_no_time_limit(tmp_path, ending):
     pytest.importorskip("imageio_ffmpeg")
-    told = []
+    reported = []
 
     def done(k, count):
-        told.append((k, count))
+        reported.append((k, count))
         budget._LIMITS.look = budget._LIMITS.deadline = 0.0
 
     with pytest.raises(BudgetExceeded, match="time limit exceeded"):
         draw_module.draw(small(), tmp_path / f"x{ending}", max_seconds=1000, done=done)
-    assert told == [(1, 161)]
+    assert reported == [(1, 161)]
     assert list(tmp_path.iterdir()) == []
 
 

@@ -62,13 +62,13 @@ def test_nobody_looks_and_no_exact_time_is_computed_but_the_engine_s(family, run
     for tiling in ("greedy", "lazy"):
         kinetic = start_tiling(scene, tiling, scene.start)
         computed.clear()
-        told = len(list(Driver(scene, kinetic).events(end)))
+        count = len(list(Driver(scene, kinetic).events(end)))
         needed = len(computed)
         simulation = Simulation(scene, tiling=tiling)
         computed.clear()
         events = list(run(simulation, end))
 
-        assert len(events) == told
+        assert len(events) == count
         assert len(computed) == needed
         assert len({event.time for event in events}) >= len(computed) - needed
 
@@ -133,7 +133,7 @@ def journey(scene, tiling, look, path):
     return seen
 
 
-def told(event):
+def summary(event):
     return json.dumps(event.to_json())
 
 
@@ -142,11 +142,11 @@ def told(event):
 def test_looked_at_late_they_are_what_they_were_at_once(family, tmp_path):
     scene = generate(family, 2)
     for tiling in ("incremental",) if family in POINTS else TILINGS:
-        at_once = journey(scene, tiling, told, tmp_path / "run.json")
+        at_once = journey(scene, tiling, summary, tmp_path / "run.json")
         late = journey(scene, tiling, lambda event: event, tmp_path / "run.json")
 
-        assert [told(event) for event in late] == at_once
-        assert [told(event) for event in reversed(late)] == at_once[::-1]
+        assert [summary(event) for event in late] == at_once
+        assert [summary(event) for event in reversed(late)] == at_once[::-1]
 
 
 @pytest.mark.parametrize(
@@ -174,9 +174,9 @@ def test_the_names_are_those_of_then(outline, rebuilds):
         assert set(ring) <= set(simulation.kinetic.vertices.bodies[-1].ring) or rebuilds
         yield from simulation.run(8)
 
-    at_once = [told(event) for event in run()]
+    at_once = [summary(event) for event in run()]
 
-    assert [told(event) for event in list(run())] == at_once
+    assert [summary(event) for event in list(run())] == at_once
     assert any("old" in line for line in at_once)
     assert any("new" in line for line in at_once)
 
@@ -200,7 +200,7 @@ def test_an_event_is_copied_and_pickled_with_its_time(way):
     other = way(event)
     list(simulation.run())
 
-    assert told(other) == told(event)
+    assert summary(other) == summary(event)
     assert repr(other) == repr(event)
     assert repr(event).startswith("Event(time=AlgebraicNumber('37/327'), kind='hull', removed=((")
 

@@ -79,7 +79,7 @@ def test_a_saved_run_goes_on(tmp_path):
         whole = Simulation(scene)
         if whole.tiling is None:
             continue
-        told = [event.to_json() for event in whole.run()]
+        reported = [event.to_json() for event in whole.run()]
         part = Simulation(scene)
         begun = [event.to_json() for event in part.run(until=scene.end / 3)]
         if part.contact is not None:
@@ -87,7 +87,7 @@ def test_a_saved_run_goes_on(tmp_path):
         part.save(tmp_path / "run.json")
         rest = [event.to_json() for event in Simulation.restore(tmp_path / "run.json").run()]
         assert [e for e in begun + rest if e["kind"] != "contact"] == [
-            e for e in told if e["kind"] != "contact"
+            e for e in reported if e["kind"] != "contact"
         ]
 
 

@@ -195,11 +195,11 @@ def test_bug_simulations_travel_and_go_on_alone(way, tiling):
     """At the start, in the middle, and after the contact; the copy goes on first."""
     simulation = Simulation(scene(), tiling=tiling)
     whole = log(Simulation(scene(), tiling=tiling))
-    told = []
+    reported = []
     while True:
         other, present = way(simulation), simulation.to_json()
         rest = log(other)
-        assert told + rest == whole
+        assert reported + rest == whole
         if rest and other.contact is None:
             other.add(Body("new", [(500, 500)]))
         assert simulation.to_json() == present
@@ -207,8 +207,8 @@ def test_bug_simulations_travel_and_go_on_alone(way, tiling):
         step = simulation.step()
         if not step:
             break
-        told += [json.dumps(event.to_json()) for event in step]
-    assert told == whole
+        reported += [json.dumps(event.to_json()) for event in step]
+    assert reported == whole
     assert way(simulation).contact.to_json() == simulation.contact.to_json()
 
 

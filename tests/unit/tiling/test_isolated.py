@@ -49,7 +49,7 @@ def outcomes(monkeypatch):
     return counts
 
 
-def told(kinetic, events):
+def summary(kinetic, events):
     return [
         (e.kind, e.removed, e.added, e.time.low, e.time.high, e.time.a, e.time.b, e.time.c)
         for e in events
@@ -78,7 +78,7 @@ def run(scene, most=10**9, name="lazy"):
     events, contact = [], None
     try:
         while len(events) < most and (happened := kinetic.advance(scene._end)) is not None:
-            events += told(kinetic, happened)
+            events += summary(kinetic, happened)
     except ContactFound as found:
         contact = sorted(found.touches)
     return events, state_of(kinetic), contact, kinetic
@@ -163,7 +163,7 @@ def test_advance_many_stops_between_events(monkeypatch):
     monkeypatch.undo()
     assert kinetic.stats.total >= 30
     events, _, _, _ = run(scene, kinetic.stats.total)
-    rest = [e for _ in range(20) for e in told(kinetic, kinetic.advance(scene._end))]
+    rest = [e for _ in range(20) for e in summary(kinetic, kinetic.advance(scene._end))]
     assert rest == run(scene, len(events) + len(rest))[0][len(events) :]
 
 
@@ -216,7 +216,7 @@ def test_an_end_within_an_enclosure_is_the_engines(monkeypatch, outcomes):
     kinetic, found = start_tiling(scene, "lazy", scene._start), []
     for end in ends:
         while (happened := kinetic.advance(end)) is not None:
-            found += told(kinetic, happened)
+            found += summary(kinetic, happened)
         assert not kinetic.is_after(end)
     assert [e[:3] for e in found] == [e[:3] for e in events[: len(found)]]
     assert len(events) - len(found) <= 1

@@ -170,7 +170,7 @@ def test_signs_at_an_instant(moving, t, after):
 @pytest.mark.long
 @given(vertices(linear, least=4), times)
 def test_many_certificates_at_once(moving, t):
-    """The sign holds up to the time that is told, at which the orientation vanishes."""
+    """The sign holds up to the returned time, at which the orientation vanishes."""
     certifier = certifier_at(moving, t)
     triples = [tuple(v.id for v in abc) for abc in permutations(moving.all, 3)]
     triples = triples[:: max(1, len(triples) // 60)]
