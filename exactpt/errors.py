@@ -28,7 +28,7 @@ class ExactPTError(Exception):
 
 
 class InputError(ExactPTError, ValueError):
-    """The input is not acceptable; one printable line names the fault and its place."""
+    """The input is not acceptable; the message is one printable line: the fault, and its place."""
 
     def __init__(self, message: str) -> None:
         super().__init__(printable(message))

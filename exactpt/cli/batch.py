@@ -75,9 +75,8 @@ def batch(
     SCENES has a scene on each line, as JSON; or it is Parquet (.parquet) with a column "scene" of
     such texts (needs: pip install 'exactpt[parquet]'). The results are lines of JSON in the same
     order, or a Parquet file, which has the other columns of the input too; docs/format.md
-    explains them. A scene that fails has the
-    key "error", and the exit code is 2 at the end. --max-seconds, --max-memory and --max-bytes
-    bound each scene.
+    explains them. A scene that fails has the key "error", and the exit code is 2 at the end.
+    --max-seconds, --max-memory and --max-bytes bound each scene.
 
     --scheduler tcp://10.0.0.1:8786 uses the workers of a Dask cluster, which need exactpt.
 

@@ -56,7 +56,7 @@ def first_contact(
         proof: file to write, with all that an independent program needs to check the result
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
-        certificate: file to write, and the scene likewise, with what another program needs to check
+        certificate: file to write, and the scene likewise; another program checks by them
             that bodies stay apart up to a time L, and that two are in contact by a time H soon
             after (docs/proofs.md): by any method, not for ``after_start``.
         max_seconds: time limit in seconds of wall-clock time; None for no limit.

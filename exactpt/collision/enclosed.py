@@ -58,7 +58,7 @@ FINEST: Final = 60
 @final
 @dataclass(frozen=True, slots=True)
 class EnclosedContact:
-    """Bounds of the time of the first contact of bodies whose turns have an error.
+    """Bounds of the time of the first contact, if a `Spin` or a `PosePath` is approximated.
 
     Attributes:
         low: no two bodies touch before this time.

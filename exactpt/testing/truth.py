@@ -22,8 +22,8 @@ class Truth(NamedTuple):
     """The first contact of two bodies, "a" and "b".
 
     Attributes:
-        time: the exact time; None without a contact.
-        kind: as in `exactpt.Contact`; None without a contact.
+        time: the exact time; None if no contact exists.
+        kind: as in `exactpt.Contact`; None if no contact exists.
         pair: the first incidence as JSON (docs/format.md), without its point and normal; None if
             there is none.
     """
