@@ -40,7 +40,7 @@ def reader(source: str, *, is_short: bool = True) -> str:
             continue
         if isinstance(node, ast.ClassDef) and node.name in METHODS:
             kept = METHODS[node.name].split()
-            node.body = [m for m in node.body if getattr(m, "name", "__init__") in kept]
+            node.body = [m for m in node.body if getattr(m, "name", kept[0]) in kept]
         for part in ast.walk(node):
             if isinstance(part, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(part):
                 part.body = part.body[1:] or [ast.Pass()]

@@ -59,6 +59,7 @@ def require(condition: object, why: str) -> None:
 def words(n: int) -> int: return (n.numerator.bit_length() + n.denominator.bit_length() >> 6) + 1
 def most_words(f: Iterable[Any]) -> int: return max(map(words, f), default=1)
 class Poly(tuple[Any, ...]):
+    __slots__ = ()
     def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
         f = list(coefficients)
         while f and (not f[-1]): f.pop()
@@ -88,7 +89,7 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
         longest = max(map(most_words, polynomials))
         WORK.spend(len(polynomials) * k ** 2 * words(d) * (k * words(n) + longest))
     powers = [n ** i * d ** (k - 1 - i) for i in range(k)]; found = [sum(map(mul, f, powers)) for f in polynomials]
-    WORK.spend(k * sum(map(words, found))); return found
+    WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
     p, q, r, s = (turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b))
     if (p > 0 > q or p < 0 < q) and (r > 0 > s or r < 0 < s): return True
@@ -172,11 +173,14 @@ class Motion:
             w, cosine, sine = (ONE + h * h, ONE - h * h, h + h)
             a, b = (cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s]))
             e, f = (w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q); form = (a, Poly() - b, b, a, e, f, w)
-        self.form = cleared(*form)[:7]; self.cost = sum((len(f) * (300 + 2 * most_words(f) ** 2) for f in self.form))
+        self.form = cleared(*form)[:7]
+        self.cost = sum(map(len, self.form)) * (300 + 2 * most_words(chain(*self.form)) ** 2)
     def track(self, x: Poly, y: Poly, z: Poly) -> Track:
         WORK.spend(self.cost * (len(x) + len(y))); a, b, c, d, e, f, w = self.form
-        found = (x * a + y * b + z * e, x * c + y * d + z * f, z * w); m = gcd(*chain(*found))
-        x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found; return (x, y, w)
+        found = (x * a + z * e, y * d + z * f, z * w)
+        if b or c: found = (found[0] + y * b, found[1] + x * c, found[2])
+        m = gcd(*chain(*found)); x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found
+        return (x, y, w)
 def cleared(*given: Poly) -> tuple[Poly, ...]:
     m = lcm(*[q.denominator for q in chain(*given)]); WORK.spend(words(m) ** 2 * sum(map(len, given)))
     return (*(Poly([q.numerator * (m // q.denominator) for q in f]) for f in given), Poly([m]))
@@ -210,7 +214,8 @@ class Body:
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         ends = [(ring, [(ring[-1], ring[0])][:self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks: dict[tuple[int, int], Track] = {}; self.check_simple(self.places(start))
+        self.tracks: dict[tuple[int, int], Track] = {}; self.at_start = self.places(start)
+        self.check_simple(self.at_start)
     def read_motion(self, data: Json) -> None:
         of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
         rows, given = ([{'motion': data}], dict[str, Json]())
@@ -262,7 +267,8 @@ def point(data: Json) -> Point: x, y = map(number, entries(data, 2)); return (x,
 def vertex(data: Json) -> tuple[Poly, ...]:
     if isinstance(data, dict):
         given = keys(data, optional=['x', 'y']); return cleared(*(polynomial(given.get(k, [])) for k in 'xy'))
-    return cleared(*(Poly([c]) for c in point(data)))
+    x, y = point(data); m = lcm(x.denominator, y.denominator)
+    return (*(Poly([c.numerator * (m // c.denominator)]) for c in (x, y)), Poly([m]))
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     frames = [keys(f, ['t', 'vertices']) for f in entries(data)]
     path = [(number(f['t']), [*map(point, entries(f['vertices']))]) for f in frames]
@@ -349,13 +355,18 @@ class Interval:
 
     def __init__(self, start: Fraction, end: Fraction) -> None:
         self.start, self.end, self.hulls = start, end, dict[int, Hull]()
+        self.pieces = dict[int, list[tuple[Fraction, int, int, int]]]()
 
     def hull(self, scene: Scene, v: int) -> Hull:
         """Return the points of `hull` of all pieces of a vertex's path."""
         if v not in self.hulls:
-            inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
-            times = pairwise([self.start, *inside, self.end])
-            self.hulls[v] = [p for s, e in times for p in hull(scene.track(v, s), *on_grid(s, e))]
+            body = scene.body_of[v]
+            if body not in self.pieces:
+                inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
+                times = pairwise([self.start, *inside, self.end])
+                self.pieces[body] = [(s, *on_grid(s, e)) for s, e in times]
+            found = [hull(scene.track(v, s), *at) for s, *at in self.pieces[body]]
+            self.hulls[v] = found[0] if len(found) == 1 else [*chain(*found)]
         return self.hulls[v]
 
 
@@ -420,10 +431,13 @@ def planes_of(
 def side_of(points: Hull, low: Plane, high: Plane) -> int:
     """-1 if points are below a first plane, 1 if none of them is below a second one, else 0."""
     a, b, t, c = low
-    if all(a * x + b * y + t * z + c * w < 0 for x, y, z, w in points):
+    values = [a * x + b * y + t * z + c * w for x, y, z, w in points]
+    if max(values) < 0:
         return -1
     a, b, t, c = high
-    return int(all(a * x + b * y + t * z + c * w >= 0 for x, y, z, w in points))
+    if high != low:
+        values = [a * x + b * y + t * z + c * w for x, y, z, w in points]
+    return int(min(values) >= 0)
 
 
 def are_near(places: Sequence[Whole], far: Fraction) -> bool:
@@ -538,19 +552,19 @@ class Checker:
         x, y, c, v = int(row[0]), int(row[1]), Fraction(row[2]), Fraction([*row, "0"][3])
         require(x or y, "a line without a direction")
         ends = [self.items[i][1:] for i in items]
-        sides = dict.fromkeys((u for edge in ends for u in edge), 0)
-        kinds = {self.kind[u] for u in sides}
+        hulls = {u: time.hull(self.scene, u) for edge in ends for u in edge}
+        kinds = {self.kind[u] for u in hulls}
         planes = {k: planes_of(x, y, c, v, self.radii[k], self.distance) for k in kinds}
-        for u in sides:
-            points, (low, high) = time.hull(self.scene, u), planes[self.kind[u]]
-            WORK.spend(len(points) * 4 * words(points[0][3]) * words(low[3]))
-            sides[u] = side_of(points, low, high)
+        longest = max(words(low[3]) for low, _ in planes.values())
+        WORK.spend(4 * longest * sum(len(hull) * words(hull[0][3]) for hull in hulls.values()))
+        sides = {u: side_of(hull, *planes[self.kind[u]]) for u, hull in hulls.items()}
         return [sides[u] if sides[u] == sides[w] else 0 for u, w in ends]
 
     def check_outside(self) -> None:
         """See that at the start no ring is inside a body that counts with its own body."""
-        at = [self.scene.place(v, self.start) for v in range(len(self.scene.body_of))]
-        left, bodies = [(x << 256) // w for x, _, w in at], self.scene.bodies
+        bodies, is_first = self.scene.bodies, self.start == self.scene.start
+        at = [*chain(*(b.at_start if is_first else b.places(self.start) for b in bodies))]
+        left = [(x << 256) // w for x, _, w in at]
         firsts = sorted((left[r[0]], r[0], j) for j, b in enumerate(bodies) for r, _ in b.rings)
         for i, body in enumerate(bodies):
             xs = left[body.first : body.first + body.size]

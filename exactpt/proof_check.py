@@ -425,7 +425,7 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
         WORK.spend(len(polynomials) * k**2 * words(d) * (k * words(n) + longest))
     powers = [n**i * d ** (k - 1 - i) for i in range(k)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
-    WORK.spend(k * sum(map(words, found)))
+    WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6)))
     return found
 
 
@@ -594,14 +594,15 @@ class Motion:
             e, f = w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q
             form = a, Poly() - b, b, a, e, f, w
         self.form = cleared(*form)[:7]
-
-        self.cost = sum(len(f) * (300 + 2 * most_words(f) ** 2) for f in self.form)
+        self.cost = sum(map(len, self.form)) * (300 + 2 * most_words(chain(*self.form)) ** 2)
 
     def track(self, x: Poly, y: Poly, z: Poly) -> Track:
         """Return the track of a vertex at (x / z, y / z)."""
         WORK.spend(self.cost * (len(x) + len(y)))
         a, b, c, d, e, f, w = self.form
-        found = x * a + y * b + z * e, x * c + y * d + z * f, z * w
+        found = x * a + z * e, y * d + z * f, z * w
+        if b or c:
+            found = found[0] + y * b, found[1] + x * c, found[2]
         m = gcd(*chain(*found))
         x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found
         return x, y, w
@@ -619,6 +620,7 @@ class Body:
 
     ``breaks`` are the times at which formulas change: piece k ends at breaks[k]. ``rings`` are the
     numbers of vertices of each, with whether it bounds a hole; in ``parts`` outlines are first.
+    ``at_start`` are the places of the vertices at the start.
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
@@ -656,7 +658,8 @@ class Body:
         ends = [(ring, [(ring[-1], ring[0])][: self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
         self.tracks: dict[tuple[int, int], Track] = {}
-        self.check_simple(self.places(start))
+        self.at_start = self.places(start)
+        self.check_simple(self.at_start)
 
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
@@ -744,7 +747,9 @@ def vertex(data: Json) -> tuple[Poly, ...]:
     if isinstance(data, dict):
         given = keys(data, optional=["x", "y"])
         return cleared(*(polynomial(given.get(k, [])) for k in "xy"))
-    return cleared(*(Poly([c]) for c in point(data)))
+    x, y = point(data)
+    m = lcm(x.denominator, y.denominator)
+    return (*(Poly([c.numerator * (m // c.denominator)]) for c in (x, y)), Poly([m]))
 
 
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:

@@ -14,7 +14,9 @@ import numpy as np
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
-from exactpt.proof.paths import DIRECTIONS, Cut, Extents, Floats, Frame, Items, Paths, Plane
+from exactpt.proof.frame import DIRECTIONS, Cut, Extents, Floats, Frame
+from exactpt.proof.paths import Items, Paths, Plane
+from exactpt.proof.whole import MOST, WholeBodies
 
 CLEAR: Final = 1e-11
 """Smallest gap that a line is put into, relative to the extent of all items."""
@@ -50,6 +52,7 @@ class Separation:
     ) -> None:
         self._paths, self._counts, self._counted = paths, counts, counted
         self._body = paths.body
+        self._groups = groups
         self._group = np.array(groups, dtype=np.intp)[self._body]
 
     def lines(self, start: Fraction, end: Fraction) -> Iterator[str]:
@@ -76,7 +79,8 @@ class Separation:
             nodes += 1
             if nodes > most:
                 raise BudgetExceeded(f"a certificate of more than {most} nodes is needed", None)
-            found = self._cut(frame, items, frame.rows(items))
+            found = self._between_bodies(frame, items, present)
+            found = found or self._cut(frame, items, frame.rows(items))
             if found is not None:
                 plane, below, above = found
                 yield plane.line()
@@ -104,6 +108,23 @@ class Separation:
         bodies = {*self._body[items].tolist()}
         breaks = {q for i in bodies for q in self._paths.breaks[i].breaks if start < q < end}
         return min(breaks, key=lambda q: (abs(q - middle), q)) if breaks else middle
+
+    def _between_bodies(
+        self, frame: Frame, items: Items, present: set[int]
+    ) -> tuple[Plane, Any, Any] | None:
+        """Return a moving line between whole bodies; None if there are many, or is no such line."""
+        if len(present) > MOST:
+            return None
+        if frame.whole is None:
+            frame.whole = WholeBodies(frame, self._groups)
+        found = frame.whole.cut(present)
+        if found is None:
+            return None
+        plane, low = found
+        sides = np.zeros(len(self._paths.radii), dtype=bool)
+        sides[[*low]] = True
+        below = sides[self._body[items]]
+        return plane, below, ~below
 
     @np.errstate(all="ignore")  # a line from an overflow is not proposed
     def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:

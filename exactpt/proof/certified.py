@@ -7,23 +7,24 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, final
 
-import numpy as np
-
-from exactpt.check_apart import WORK, Poly, Rejected, Whole, are_near, require_passage, surrounds
+from exactpt.check_apart import WORK, Rejected
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach import Approach, first_within
+from exactpt.pairs.contact import Contact
 from exactpt.pairs.selection import Selection
 from exactpt.proof.apart import Separation
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import beside, scene_bytes
+from exactpt.proof.meeting import Meetings
 from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
 from exactpt.scene.scene import Scene, a_scene
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts
     from exactpt.collision.search import Search
     from exactpt.collision.searches import ContactQuery
-    from exactpt.pairs.contact import Contact
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
@@ -183,10 +183,11 @@ class _Certificate:
         if selection.named == []:
             raise InputError("no pair of bodies counts: there is nothing to certify")
         self.start, self.end = fraction(scene._start), fraction(scene._end)
-        self._bodies, self._file, self._distance = scene.bodies, file, distance
+        self._file, self._distance = file, distance
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._selection = selection
         self._paths = Paths(scene.bodies, distance)
+        self._meetings = Meetings(self._paths)
 
     def _counts(self, bodies: set[int]) -> bool:
         """See `exactpt.check_apart.Checker.count`."""
@@ -234,16 +235,19 @@ class _Certificate:
 
     def _last(self, found: Contact | Approach, start: Fraction) -> tuple[list[str], Fraction]:
         """Return the last line, which shows a contact, and a time up to which there is none."""
-        names = set(found.pairs if isinstance(found, Approach) else found.overlaps)
-        features = () if isinstance(found, Approach) else found.pairs
-        names |= {(pair.body, pair.other) for pair in features}
-        pairs = [(self._number[a], self._number[b]) for a, b in sorted(names) if a != b]
+        if isinstance(found, Contact):  # without the points and normals of its incidences
+            names, time, touches = found.overlaps, found._time, found._touches(self._number)
+        else:
+            names, time, touches = found.pairs, found.time, []
+        touches = [touch for touch in touches if touch.body != touch.other]
+        pairs = {(touch.body, touch.other) for touch in touches}
+        pairs |= {(self._number[a], self._number[b]) for a, b in names}
         if not pairs:
             raise InputError("there is no certificate of a contact of a body with itself")
-        found.time.refine_to(QQ((self.end - start) / 2 ** (NEAR + 5)))
-        low, high = fraction(found.time._low), fraction(found.time._high)
+        time.refine_to(QQ((self.end - start) / 2 ** (NEAR + 5)))
+        low, high = fraction(time._low), fraction(time._high)
         if high == start:
-            return [self._meeting(pairs, start)], start
+            return [self._meetings.at(sorted(pairs), touches, start)], start
         near = (self.end - start) / 2**NEAR * (3 if low == high else 1)
         near = min(near, (low - start) / 4)
         until = short(low - near, float(near) / 4)
@@ -251,78 +255,13 @@ class _Certificate:
         times = [high] * (low == high) + [min(t, self.end) for t in later]
         for t in times:
             with suppress(Rejected):
-                return [self._meeting(pairs, t)], until
-        for pair in features:
-            if pair.edge is not None:
-                v = self._paths.first[self._number[pair.body]] + pair.vertex
-                item = self._items(self._number[pair.other])[pair.edge]
+                return [self._meetings.at(sorted(pairs), touches, t)], until
+        for touch in touches:
+            if touch.edge >= 0:
+                v = self._paths.first[touch.body] + touch.vertex
+                item = self._meetings.items(touch.other)[touch.edge]
                 with suppress(Rejected):
-                    return [self._passage(v, item, until, low, high, times[-1])], until
+                    return [self._meetings.passage(v, item, until, low, high, times[-1])], until
         raise BudgetExceeded(
             "a touch without crossing, at an irrational time, has no certificate", None
         )
-
-    def _items(self, body: int) -> list[int]:
-        """Return the numbers of the items of a body."""
-        return [k for k, item in enumerate(self._paths.items) if item[0] == body]
-
-    def _meeting(self, pairs: Sequence[tuple[int, int]], t: Fraction) -> str:
-        """Return a last line by two bodies at a time.
-
-        Raises:
-            Rejected: if there is none.
-        """
-        first, items = self._paths.first, self._paths.items
-        place = {
-            v: self._paths.place(v, t)
-            for k in {k for pair in pairs for k in pair}
-            for v in range(first[k], first[k] + self._bodies[k].size)
-        }
-        for i, j in pairs:
-            far = self._distance + self._bodies[i].radius + self._bodies[j].radius
-            for k, m in _candidates(self._items(i), self._items(j), items, place, float(far)):
-                if are_near([place[v] for v in (*items[k][1:], *items[m][1:])], far):
-                    return f"meet {t} {k} {m}"
-            for one, other in ((i, j), (j, i)):
-                body = self._bodies[other]
-                rings = [[place[first[other] + v] for v in ring] for ring in body.rings]
-                for v in (first[one] + ring[0] for ring in self._bodies[one].rings):
-                    odd = sum(surrounds(ring, place[v]) for ring in rings) % 2
-                    if body.has_interior and odd:
-                        return f"inside {t} {v} {other}"
-        raise Rejected("no two bodies share a point")
-
-    def _passage(
-        self, v: int, item: int, until: Fraction, low: Fraction, high: Fraction, end: Fraction
-    ) -> str:
-        """Return a last line by a vertex that passes through an edge.
-
-        Raises:
-            Rejected: if it is not one.
-        """
-        _, a, b = self._paths.items[item]
-        for u in (v, a):
-            breaks = self._paths.of(u).breaks
-            until = max([until, *(q for q in breaks if q <= low)])
-            end = min([end, *(q for q in breaks if q >= high)])
-        tracks = [tuple(map(Poly, self._paths.track(u, until))) for u in (v, a, b)]
-        require_passage(tracks, until, end)  # type: ignore[arg-type]
-        return f"cross {until} {end} {v} {item}"
-
-
-def _candidates(
-    one: Sequence[int],
-    other: Sequence[int],
-    items: Sequence[tuple[int, int, int]],
-    place: Mapping[int, Whole],
-    far: float,
-) -> list[tuple[int, int]]:
-    """Return pairs of items whose boxes come near each other, by doubles; the nearest first."""
-    at = {v: (x / w, y / w) for v, (x, y, w) in place.items()}
-    ends = [np.array([[at[v] for v in items[k][1:]] for k in some]) for some in (one, other)]
-    low, high = ([e.min(axis=1) for e in ends], [e.max(axis=1) for e in ends])
-    gaps = np.maximum(low[0][:, None] - high[1], low[1] - high[0][:, None]).clip(0)
-    apart = np.hypot(gaps[..., 0], gaps[..., 1])
-    near = apart <= far + 1e-9 * (far + max(float(np.abs(e).max()) for e in ends))
-    order = sorted(np.argwhere(near).tolist(), key=lambda km: float(apart[km[0], km[1]]))
-    return [(one[k], other[m]) for k, m in order]

@@ -1,0 +1,200 @@
+"""Items of a certificate in an interval of time: doubles near their control points.
+
+Doubles propose moving lines, and show on which side of them items are, if by more than `ERROR`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from fractions import Fraction
+from functools import cached_property
+from itertools import chain, groupby
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
+
+import numpy as np
+
+from exactpt.check_apart import Interval, planes_of, side_of
+from exactpt.kernel.numbers import rational
+from exactpt.proof.paths import Items, Paths, Plane, short
+
+if TYPE_CHECKING:
+    from exactpt.proof.whole import WholeBodies
+
+Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
+Extents: TypeAlias = "tuple[Floats, Floats]"
+Points: TypeAlias = "list[tuple[float, float, float]]"
+
+DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
+ERROR: Final = 1e-12
+"""Bound of the error of a test, relative to the sum of the largest sizes of its terms.
+
+Coordinates of control points are within 4 * 2^-53 of the size: correctly rounded quotients, or
+sums of two or three doubles near numbers that are not larger than it. A test is a sum of four
+products: its error is below 16 * 2^-53 of that sum.
+"""
+EXACT: Final = 2**53
+"""Integers up to this size are doubles."""
+
+
+class Cut(NamedTuple):
+    """A moving line: its direction, its places at both ends of an interval, and the room it has."""
+
+    worth: float
+    direction: tuple[int, int]
+    places: tuple[float, float]
+    gap: float
+
+
+@final
+class Frame:
+    """Items in an interval of time, in doubles relative to an integer point near them.
+
+    Attributes:
+        time: the interval.
+        start, length: of the interval.
+        ends: (x, y) of all vertices at the start and at the end of the interval.
+        ends_of: the two vertices of each item.
+        bodies: those that have items, in order.
+        whole: the bodies as wholes, if they have been compared as such.
+    """
+
+    whole: WholeBodies | None = None
+
+    @np.errstate(all="ignore")  # the checker's exact test decides about infinities and NaN
+    def __init__(self, paths: Paths, items: Items, start: Fraction, end: Fraction) -> None:
+        self.time, self.start, self.length = Interval(start, end), start, float(end - start)
+        self._paths, self._items = paths, items
+        ends = [paths.items[i][1:] for i in items.tolist()]
+        row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
+        self.ends_of = np.array([(row[u], row[v]) for u, v in ends])
+        x, y, _, w = self.time.hull(paths, next(iter(row)))[0]  # type: ignore[arg-type]
+        self._origin, self._size = (int(x // w), int(y // w)), 0.0
+        points, self.bodies, self._first_vertices = list[Points](), list[int](), list[int]()
+        for i, some in groupby(row, paths.body_of.__getitem__):
+            self.bodies.append(i)
+            self._first_vertices.append(len(points))
+            vertices = [*some]
+            points += self._translating(i, vertices) or map(self._exactly, vertices)
+        self._points = np.array([*chain(*points)])  # (x, y, t) of all control points
+        self._starts = np.cumsum([0, *map(len, points)])
+        firsts, lasts = self._starts[:-1], self._starts[1:] - 1
+        self.ends = np.stack([self._points[firsts, :2], self._points[lasts, :2]])
+        largest = float(np.nanmax(np.abs(self._points[:, :2]), initial=0.0))
+        self._size = max(self._size, largest)
+
+    def _exactly(self, v: int) -> Points:
+        """Return the control points of a vertex, correctly rounded."""
+        (a, b), n, d = self._origin, self.start.numerator, self.start.denominator
+        return [
+            ((x - a * w) / w, (y - b * w) / w, (d * t - n * w) / (d * w))
+            if w > 0
+            else (math.nan, math.nan, 0.0)
+            for x, y, t, w in self.time.hull(self._paths, v)  # type: ignore[arg-type]
+        ]
+
+    def _translating(self, body: int, vertices: Sequence[int]) -> list[Points]:
+        """Return the control points of the vertices of a body, by its shape in doubles.
+
+        None of them if it does not translate by one linear formula, or its shape has no doubles.
+        """
+        s, e = rational(self.time.start), rational(self.time.end)
+        piece = self._paths.bodies[body]._piece_after(s)
+        if piece.translation is None or (piece.until is not None and piece.until < e):
+            return []
+        (xs, ys, is_exact), motion = piece.translation
+        a, b = self._origin
+        if max(motion.x.degree, motion.y.degree) > 1 or max(abs(a), abs(b)) > EXACT:
+            return []
+        (i, j), (k, m) = (map(float, motion._at(t)) for t in (s, e))
+        first, length = self._paths.first[body], self.length
+        rest = [(xs[v - first] - a, ys[v - first] - b) for v in vertices]
+        sizes = [*map(abs, (i, j, k, m, *chain(*rest)))]
+        if not is_exact:
+            sizes += [abs(f) for f in (min(xs), max(xs), min(ys), max(ys))]
+        self._size = max(self._size, *sizes)
+        return [[(x + i, y + j, 0.0), (x + k, y + m, length)] for x, y in rest]
+
+    def rows(self, items: Items) -> Items:
+        """Return the rows of some of the items."""
+        return np.searchsorted(self._items, items)
+
+    def extents(self, items: Items, rows: Items | slice, directions: Floats) -> Extents:
+        """Return the least and largest values at start and end, (2, items, directions).
+
+        The radii are added on both sides, and the distance above.
+        """
+        along, norm = self.ends @ directions.T, np.hypot(*directions.T)
+        u, v = along[:, self.ends_of[rows, 0]], along[:, self.ends_of[rows, 1]]
+        wide = self._paths.wide[items][:, None] * norm
+        return np.minimum(u, v) - wide, np.maximum(u, v) + (wide + self._paths.extra * norm)
+
+    @cached_property
+    def _usual(self) -> Extents:
+        return self.extents(self._items, slice(None), DIRECTIONS)
+
+    def usual(self, rows: Items) -> Extents:
+        """Return the extents in the usual directions."""
+        low, high = self._usual
+        return low[:, rows], high[:, rows]
+
+    def body_extents(self, directions: Floats) -> Extents:
+        """Return the same of bodies: (2, bodies, directions)."""
+        along, norm = self.ends @ directions.T, np.hypot(*directions.T)
+        low, high = (f.reduceat(along, self._first_vertices, 1) for f in (np.minimum, np.maximum))
+        wide = self._paths.wide_bodies[self.bodies][:, None] * norm
+        return low - wide, high + (wide + self._paths.extra * norm)
+
+    def cut(
+        self, worth: float, direction: tuple[int, int], places: tuple[float, float], gap: float
+    ) -> Cut:
+        """Return a moving line between two extents: the distance is on its upper side."""
+        above = self._paths.extra * math.hypot(*direction)
+        return Cut(worth, direction, (places[0] - above, places[1] - above), gap)
+
+    def plane(self, cut: Cut) -> Plane:
+        """Return a moving line with short numbers."""
+        (x, y), (c, d), unit = cut.direction, cut.places, cut.gap / 16
+        v = Fraction(0)
+        if c != d and self.length:
+            v = short(Fraction((d - c) / self.length), unit / self.length)
+        at = Fraction(c) + (x * self._origin[0] + y * self._origin[1])
+        return Plane(x, y, short(at - v * self.start if v and self.start else at, unit), v)
+
+    def sides(self, items: Items, rows: Items, plane: Plane) -> tuple[Any, Any]:
+        """Return which items the checker finds below a moving line, and which above."""
+        f, norm, error = self._values(plane)
+        wide, extra = self._paths.wide[items], self._paths.extra
+        low = np.minimum.reduceat(f, self._starts[:-1])[self.ends_of[rows]].min(axis=1)
+        high = np.maximum.reduceat(f, self._starts[:-1])[self.ends_of[rows]].max(axis=1)
+        high, low = high + norm * wide, low - norm * (wide + extra)
+        below, above = high < -error, low > error
+        for k in np.flatnonzero(~(below | above | ((high > error) & (low < -error)))).tolist():
+            body, *ends = self._paths.items[int(items[k])]
+            planes = planes_of(*plane, self._paths.radii[body], self._paths.distance)
+            hulls = [self.time.hull(self._paths, u) for u in ends]  # type: ignore[arg-type]
+            sides = {side_of(hull, *planes) for hull in hulls}
+            below[k], above[k] = sides == {-1}, sides == {1}
+        return below, above
+
+    def separates(self, plane: Plane, below: Collection[int], present: Collection[int]) -> bool:
+        """Return True if it is certain that some bodies are below, and the others present above."""
+        f, norm, error = self._values(plane)
+        firsts = self._starts[self._first_vertices]
+        low, high = np.minimum.reduceat(f, firsts).tolist(), np.maximum.reduceat(f, firsts).tolist()
+        for i, a, b in zip(self.bodies, low, high, strict=True):
+            wide = norm * self._paths.wide_bodies[i]
+            side = b + wide < -error if i in below else a - wide - norm * self._paths.extra > error
+            if not side and i in present:
+                return False
+        return True
+
+    def _values(self, plane: Plane) -> tuple[Floats, float, float]:
+        """Return n·p - c - v t at all control points, |n|, and a bound of the error of a test."""
+        x, y, extra = float(plane.x), float(plane.y), self._paths.extra
+        at = plane.c + plane.v * self.start if plane.v and self.start else plane.c
+        v, c = float(plane.v), float(at - (plane.x * self._origin[0] + plane.y * self._origin[1]))
+        norm = math.hypot(x, y)
+        error = (abs(x) + abs(y)) * self._size + abs(v) * self.length + abs(c)
+        error = ERROR * (error + norm * (self._paths.widest + extra))
+        return self._points @ np.array([x, y, -v]) - c, norm, error

@@ -1,0 +1,99 @@
+"""Moving lines between whole bodies: of few, lists find them in less time than arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from itertools import accumulate
+from typing import Final, final
+
+from exactpt.proof.frame import DIRECTIONS, Cut, Frame
+from exactpt.proof.paths import Plane
+
+MOST: Final = 48
+"""Number of bodies up to which whole ones are tried first."""
+CLEAR: Final = 1e-6
+"""Smallest gap between whole bodies, relative to the extent of all: doubles decide of it."""
+AT_REST: Final = 0.25
+"""Part of the gap of a moving line from which on a gap is enough for a line at rest."""
+
+
+@final
+class WholeBodies:
+    """The bodies of a frame, in their order along each of the usual directions.
+
+    Args:
+        frame: the items. Of a body with some of its items in a node, all in the frame count.
+        groups: a number for each body; bodies with equal ones do not count as a pair.
+    """
+
+    def __init__(self, frame: Frame, groups: Sequence[int]) -> None:
+        self._frame, self._bodies = frame, frame.bodies
+        self._group = [groups[i] for i in frame.bodies]
+        self._are_grouped = len({*self._group}) < len(self._group)
+        low, high = frame.body_extents(DIRECTIONS)
+        self._extents = [
+            (s, e, t, f, sorted(range(len(m)), key=m.__getitem__))
+            for (s, e), (t, f), m in zip(
+                low.transpose(2, 0, 1).tolist(),
+                high.transpose(2, 0, 1).tolist(),
+                (low + high).sum(axis=0).T.tolist(),
+                strict=True,
+            )
+        ]
+
+    def cut(self, present: Collection[int]) -> tuple[Plane, set[int]] | None:
+        """Return a line between some of these bodies, which are below it, and all others.
+
+        None if there is none in the usual directions with enough room.
+        """
+        best: tuple[float, Cut, set[int]] | None = None
+        for j in range(len(DIRECTIONS)):
+            found = self._best(j, present)
+            if found is not None and (best is None or found[0] > best[0]):
+                best = found
+                if best[0] >= 0.5:
+                    break
+        if best is None:
+            return None
+        _, cut, below = best
+        plane = self._frame.plane(cut)
+        return (plane, below) if self._frame.separates(plane, below, present) else None
+
+    def _best(self, j: int, present: Collection[int]) -> tuple[float, Cut, set[int]] | None:
+        """Return the line of most worth in a direction, with the bodies below it."""
+        lows, low_ends, highs, high_ends, order = self._extents[j]
+        rows = [k for k in order if self._bodies[k] in present]
+        count = len(rows)
+        before = [*accumulate([highs[k] for k in rows], max)]
+        before_end = [*accumulate([high_ends[k] for k in rows], max)]
+        rows.reverse()
+        after = [*accumulate([lows[k] for k in rows], min)]
+        after_end = [*accumulate([low_ends[k] for k in rows], min)]
+        size = max(before[-1], before_end[-1]) - min(after[-1], after_end[-1])
+        best, at, rests = 0.0, 0, False
+        for i in range(1, count):
+            a, b, c, d = before[i - 1], before_end[i - 1], after[-1 - i], after_end[-1 - i]
+            gap = min(c - a, d - b)
+            if gap > CLEAR * size:
+                rest = min(c, d) - max(a, b) > AT_REST * gap
+                worth = min(i, count - i) / count + 0.2 * rest + 0.3 * min(gap / size, 0.3)
+                if self._are_grouped:
+                    worth += 0.4 * self._is_leaf(rows[-i:]) + 0.4 * self._is_leaf(rows[:-i])
+                if worth > best:
+                    best, at, rests = worth, i, rest
+        if not at:
+            return None
+        a, b, c, d = before[at - 1], before_end[at - 1], after[-1 - at], after_end[-1 - at]
+        if rests:
+            a = b = max(a, b)
+            c = d = min(c, d)
+        x, y = DIRECTIONS[j].tolist()
+        return (
+            best,
+            self._frame.cut(best, (x, y), ((a + c) / 2, (b + d) / 2), min(c - a, d - b)),
+            {self._bodies[k] for k in rows[-at:]},
+        )
+
+    def _is_leaf(self, rows: Sequence[int]) -> bool:
+        """Return True for bodies of one group."""
+        return len({self._group[k] for k in rows}) == 1
