@@ -355,18 +355,15 @@ class Interval:
 
     def __init__(self, start: Fraction, end: Fraction) -> None:
         self.start, self.end, self.hulls = start, end, dict[int, Hull]()
-        self.pieces = dict[int, list[tuple[Fraction, int, int, int]]]()
+        self.grid = on_grid(start, end)
 
     def hull(self, scene: Scene, v: int) -> Hull:
         """Return the points of `hull` of all pieces of a vertex's path."""
         if v not in self.hulls:
-            body = scene.body_of[v]
-            if body not in self.pieces:
-                inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
-                times = pairwise([self.start, *inside, self.end])
-                self.pieces[body] = [(s, *on_grid(s, e)) for s, e in times]
-            found = [hull(scene.track(v, s), *at) for s, *at in self.pieces[body]]
-            self.hulls[v] = found[0] if len(found) == 1 else [*chain(*found)]
+            inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
+            times = pairwise([self.start, *inside, self.end])
+            of = [(scene.track(v, s), on_grid(s, e) if inside else self.grid) for s, e in times]
+            self.hulls[v] = [p for track, at in of for p in hull(track, *at)]
         return self.hulls[v]
 
 
@@ -430,14 +427,9 @@ def planes_of(
 
 def side_of(points: Hull, low: Plane, high: Plane) -> int:
     """-1 if points are below a first plane, 1 if none of them is below a second one, else 0."""
-    a, b, t, c = low
-    values = [a * x + b * y + t * z + c * w for x, y, z, w in points]
-    if max(values) < 0:
-        return -1
-    a, b, t, c = high
-    if high != low:
-        values = [a * x + b * y + t * z + c * w for x, y, z, w in points]
-    return int(min(values) >= 0)
+    planes = (low,) if low == high else (low, high)
+    of = [[a * x + b * y + t * z + c * w for x, y, z, w in points] for a, b, t, c in planes]
+    return -1 if max(of[0]) < 0 else int(min(of[-1]) >= 0)
 
 
 def are_near(places: Sequence[Whole], far: Fraction) -> bool:
