@@ -17,7 +17,6 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
-from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.selection import Selection
