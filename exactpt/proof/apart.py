@@ -75,6 +75,7 @@ class Separation:
             if self._counted:  # the others do not matter in this node, nor in any below it
                 here = [pair for pair in self._counted if {*pair} <= present]
                 items = items[np.isin(self._body[items], np.ravel(here))]
+                present = {i for pair in here for i in pair}
             frame = time if isinstance(time, Frame) else Frame(self._paths, items, *time)
             nodes += 1
             if nodes > most:
@@ -112,7 +113,7 @@ class Separation:
     def _between_bodies(
         self, frame: Frame, items: Items, present: set[int]
     ) -> tuple[Plane, Any, Any] | None:
-        """Return a moving line between whole bodies; None if there are many, or is no such line."""
+        """Return a moving line between whole bodies; None without one, or for many bodies."""
         if len(present) > MOST:
             return None
         if frame.whole is None:

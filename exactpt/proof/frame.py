@@ -56,6 +56,7 @@ class Frame:
         ends: (x, y) of all vertices at the start and at the end of the interval.
         ends_of: the two vertices of each item.
         bodies: those that have items, in order.
+        row_of: the place of each of them in ``bodies``.
         whole: the bodies as wholes, if they have been compared as such.
     """
 
@@ -80,6 +81,7 @@ class Frame:
         self._starts = np.cumsum([0, *map(len, points)])
         firsts, lasts = self._starts[:-1], self._starts[1:] - 1
         self.ends = np.stack([self._points[firsts, :2], self._points[lasts, :2]])
+        self.row_of = {i: k for k, i in enumerate(self.bodies)}
         largest = float(np.nanmax(np.abs(self._points[:, :2]), initial=0.0))
         self._size = max(self._size, largest)
 
@@ -181,11 +183,12 @@ class Frame:
         """Return True if it is certain that some bodies are below, and the others present above."""
         f, norm, error = self._values(plane)
         firsts = self._starts[self._first_vertices]
-        low, high = np.minimum.reduceat(f, firsts).tolist(), np.maximum.reduceat(f, firsts).tolist()
-        for i, a, b in zip(self.bodies, low, high, strict=True):
+        rows = [self.row_of[i] for i in present]
+        ends = [g.reduceat(f, firsts)[rows].tolist() for g in (np.minimum, np.maximum)]
+        for i, a, b in zip(present, *ends, strict=True):
             wide = norm * self._paths.wide_bodies[i]
             side = b + wide < -error if i in below else a - wide - norm * self._paths.extra > error
-            if not side and i in present:
+            if not side:
                 return False
         return True
 

@@ -32,7 +32,7 @@ class Meetings:
         return [k for k in self.items(body) if v in self._paths.items[k][1:]]
 
     def at(self, pairs: Sequence[tuple[int, int]], touches: Sequence[Touch], t: Fraction) -> str:
-        """Return a last line by two bodies at a time: by items that touch, if these do then.
+        """Return a last line by two bodies at a time: first by items that touch.
 
         Raises:
             Rejected: if there is none.

@@ -32,7 +32,7 @@ class WholeBodies:
         self._are_grouped = len({*self._group}) < len(self._group)
         low, high = frame.body_extents(DIRECTIONS)
         self._extents = [
-            (s, e, t, f, sorted(range(len(m)), key=m.__getitem__))
+            (s, e, t, f, m)
             for (s, e), (t, f), m in zip(
                 low.transpose(2, 0, 1).tolist(),
                 high.transpose(2, 0, 1).tolist(),
@@ -47,8 +47,9 @@ class WholeBodies:
         None if there is none in the usual directions with enough room.
         """
         best: tuple[float, Cut, set[int]] | None = None
+        rows = [self._frame.row_of[i] for i in present]
         for j in range(len(DIRECTIONS)):
-            found = self._best(j, present)
+            found = self._best(j, rows)
             if found is not None and (best is None or found[0] > best[0]):
                 best = found
                 if best[0] >= 0.5:
@@ -59,10 +60,10 @@ class WholeBodies:
         plane = self._frame.plane(cut)
         return (plane, below) if self._frame.separates(plane, below, present) else None
 
-    def _best(self, j: int, present: Collection[int]) -> tuple[float, Cut, set[int]] | None:
+    def _best(self, j: int, rows: Sequence[int]) -> tuple[float, Cut, set[int]] | None:
         """Return the line of most worth in a direction, with the bodies below it."""
-        lows, low_ends, highs, high_ends, order = self._extents[j]
-        rows = [k for k in order if self._bodies[k] in present]
+        lows, low_ends, highs, high_ends, middles = self._extents[j]
+        rows = sorted(rows, key=middles.__getitem__)
         count = len(rows)
         before = [*accumulate([highs[k] for k in rows], max)]
         before_end = [*accumulate([high_ends[k] for k in rows], max)]

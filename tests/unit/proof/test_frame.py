@@ -101,3 +101,15 @@ def test_no_line_between_bodies_that_cross():
     crossing = [Body("a", [(0, 0), (4, 4)]), Body("b", [(0, 4), (4, 0)], Rigid([0, 1]))]
     _, frame = frame_of(Scene(crossing, time=(0, 1)))
     assert WholeBodies(frame, range(2)).cut({0, 1}) is None
+
+
+def test_bodies_of_a_node_alone_are_looked_at():
+    """The time of a certificate of many bodies would be quadratic."""
+    scene = Scene([moved(3 * k, 0) for k in range(40)], time=(0, 2))
+    _, frame = frame_of(scene)
+    whole = WholeBodies(frame, range(40))
+    rows = list[int]()
+    best = whole._best
+    whole._best = lambda j, some: rows.extend(some) or best(j, some)
+    assert whole.cut({3, 7, 20})[1] == {3, 7}
+    assert set(rows) == {3, 7, 20}
