@@ -39,8 +39,10 @@ class ConflictZone(NamedTuple):
     crossed: list[HalfEdge]
 
 
-def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone:
+def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone | None:
     """Return the conflict zone of a body that is not in the tiling yet.
+
+    None if its first vertex is in a body of several rings: the face there is not one cycle.
 
     Args:
         vertices: the moving vertices.
@@ -68,11 +70,13 @@ class _Search:
         self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
         self.known: dict[VertexId, Point] = {}
 
-    def zone(self) -> ConflictZone:
+    def zone(self) -> ConflictZone | None:
         """Return the conflict zone of the body."""
         if not self.vertices.bodies:
             return ConflictZone([], [])
         first = self._face_around(self.points[0])
+        if not first:
+            return None
         faces, crossed, touched = [first[0]], dict[HalfEdge, None](), set[int]()
         if self.mesh.region[first[0]] in (SOLID, INSIDE):
             touched.add(self._body_at(first[0]))
@@ -117,11 +121,10 @@ class _Search:
         return self.vertices.all[self.mesh.map.origin[h]].body
 
     def _face_around(self, p: Point) -> list[HalfEdge]:
-        """Return a closed face that contains a point."""
-        m = self.mesh.map
-        seen: set[HalfEdge] = set()
+        """Return a closed face that contains a point; empty if it is in a body of several rings."""
+        m, solid, seen = self.mesh.map, self._in_rings(), set[HalfEdge]()
         first = self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]]
-        waiting = [(0.0, twin(first))]
+        waiting = [(0.0, twin(first)), *((math.inf, h) for h in solid)]
         target = self.vertices.normalization.point(p)
         while waiting:
             _, first = heapq.heappop(waiting)
@@ -130,12 +133,20 @@ class _Search:
             face = m.face(first)
             seen.update(face)
             # The unbounded face winds around the points that are not in it.
-            if (self._turns(face, p) != 0) != (self.mesh.region[first] == OUTER):
+            is_around = (self._turns(face, p) != 0) != (self.mesh.region[first] == OUTER)
+            if is_around and solid.keys().isdisjoint(face):
                 return face
             for h in face:
                 if h ^ 1 not in seen:
                     heapq.heappush(waiting, (self._distance(h, target), twin(h)))
-        raise AuditError(f"no face around ({p[0]}, {p[1]})")
+        if not solid:
+            raise AuditError(f"no face around ({p[0]}, {p[1]})")
+        return []
+
+    def _in_rings(self) -> dict[HalfEdge, None]:
+        """Return the half-edges with a body of several rings on their left, one of each ring."""
+        of = [b for b in self.vertices.bodies if b.body.has_rings and not b.is_tiled]
+        return dict.fromkeys(self.mesh.ring_edge[ring[0]] for b in of for ring in b.rings)
 
     def _distance(self, h: HalfEdge, target: tuple[float, float]) -> float:
         """Return an estimate of the distance from an edge to a normalised position."""

@@ -150,8 +150,7 @@ class MutableScene(TiledScene):
         refuse_radii([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
         bodies = [*self._bodies, body]
-        rings = any(body.has_rings for body in bodies)
-        events = None if rings else self.kinetic.add_body(body, t)
+        events = None if body.has_rings else self.kinetic.add_body(body, t)
         if events is None:
             for i, j in initial_touches(alone.going_on(bodies, t))[1]:
                 names = bodies[i].name, bodies[j].name
@@ -167,7 +166,7 @@ class MutableScene(TiledScene):
         """Remove a body, see `Simulation.remove`; return the events caused at once."""
         t = self.rational_now()
         i, kinetic = self._index(name), self.kinetic
-        rings = any(body.has_rings for body in self._bodies)
+        rings = self._bodies[i].has_rings
         last = self._bodies.pop()
         if i < len(self._bodies):
             self._bodies[i] = last

@@ -253,6 +253,8 @@ class Engine(Tiling):
         if not self.rules.allows_body(body, t):
             return None
         zone = find_conflict_zone(self.vertices, self.mesh, body, t)
+        if zone is None:
+            return None
         self._begin_change(t)
         i = self.vertices.add(body, t)
         certify_piece(self.clock, self.vertices.bodies[i], i)

@@ -36,6 +36,8 @@ def add_ring(certified: CertifiedMesh, rules: Rules, log: Log, i: int, zone: Con
     """
     moving = certified.vertices.bodies[i]
     region = rules.region_of_insertion(zone)
+    if region is None:
+        return False
     region.add_ring(certified.vertices, moving)
     if not _retile(certified, log, region):
         return False
@@ -50,6 +52,8 @@ def remove_ring(certified: CertifiedMesh, rules: Rules, log: Log, i: int) -> boo
     """Remove the ring of a body, and certify the new angles; returns as `add_ring`."""
     ring = certified.vertices.bodies[i].ring
     region = rules.region_of_removal(i)
+    if region is None:
+        return False
     for v in ring:
         certified.mesh.ring_edge[v] = NO_HALF_EDGE
     if not _retile(certified, log, region):

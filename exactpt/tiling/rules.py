@@ -144,12 +144,18 @@ class Rules(Followers, ABC):
         """Return True if a body may be added at a time."""
         return True
 
-    def region_of_insertion(self, zone: ConflictZone) -> Region:
-        """Return the region to retile when a body is added: the faces that it intersects."""
+    def region_of_insertion(self, zone: ConflictZone) -> Region | None:
+        """Return the region to retile when a body is added: the faces that it intersects.
+
+        None if the whole must be tiled anew.
+        """
         return Region(self.certified.mesh, zone.faces, zone.crossed)
 
-    def region_of_removal(self, i: int) -> Region:
-        """Return the region to retile when a body is removed: the faces at its vertices."""
+    def region_of_removal(self, i: int) -> Region | None:
+        """Return the region to retile when a body is removed: the faces at its vertices.
+
+        None if the whole must be tiled anew.
+        """
         gone = self.certified.edges_at(i)
         return Region(self.certified.mesh, [g for h in gone for g in (h, twin(h))], gone)
 

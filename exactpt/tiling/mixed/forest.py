@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.indices import VertexId
 from exactpt.motion.vertices import MovingBody, Vertices
-from exactpt.tiling.mixed.tree import ROOT, GeodesicTree, tree_of_size
+from exactpt.tiling.mixed.tree import ROOT, TOP, GeodesicTree, tree_of_size
 
 Label: TypeAlias = frozenset[int]
 """A set of nodes; the nodes of all rings are numbered consecutively, two for each vertex."""
@@ -88,6 +88,12 @@ class Forest:
     def body(self, node: int) -> int:
         """Return the number of the body to which a node belongs."""
         return self.vertices.all[VertexId(node >> 1)].body
+
+    def has_hole(self, nodes: Set[int]) -> bool:
+        """Return True if some of these nodes, which include their ancestors, are of a hole."""
+        bodies = {self.body(node) for node in nodes}
+        trees = (tree for i in bodies for tree in self.bodies[i] if tree.is_hole)
+        return any(tree.nodes[TOP] in nodes for tree in trees)
 
     def bot(self, label: Label) -> int:
         """Return the deepest node of a label."""

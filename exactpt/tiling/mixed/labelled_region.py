@@ -21,7 +21,8 @@ chain it bends to the right, so no tile with all its vertices on the geodesic is
 The tiles between the chain and the old geodesic are in the region from the start. So all other
 tiles keep their nodes.
 
-Every body has one ring here: beside holes and parts, the whole is tiled anew instead.
+The body has one ring. Where geodesics along a hole change, whose cycle is around the contents of
+the hole, the whole is tiled anew instead.
 """
 
 from __future__ import annotations
@@ -52,18 +53,23 @@ if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices
 
 
-def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> LabelledRegion:
-    """Return the region to retile when a body is added.
+def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> LabelledRegion | None:
+    """Return the region to retile when a body is added; None if a geodesic of a hole changes.
 
     Args:
         mesh: the tiling.
         faces: one half-edge of every face that it intersects.
     """
-    return LabelledRegion(mesh, faces, [], nodes_changed_by_insertion(mesh, faces), None)
+    changing = nodes_changed_by_insertion(mesh, faces)
+    return (
+        None if mesh.forest.has_hole(changing) else LabelledRegion(mesh, faces, [], changing, None)
+    )
 
 
-def region_of_removal(mesh: LabelledMesh, i: int, edges: Sequence[HalfEdge]) -> LabelledRegion:
-    """Return the region to retile when a body is removed.
+def region_of_removal(
+    mesh: LabelledMesh, i: int, edges: Sequence[HalfEdge]
+) -> LabelledRegion | None:
+    """Return the region to retile when a body is removed; None if a geodesic of a hole changes.
 
     Args:
         mesh: the tiling.
@@ -72,7 +78,12 @@ def region_of_removal(mesh: LabelledMesh, i: int, edges: Sequence[HalfEdge]) -> 
     """
     sides = [g for h in edges for g in (h, twin(h))]
     (own,) = mesh.forest.bodies[i]
-    return LabelledRegion(mesh, sides, edges, nodes_changed_by_removal(mesh, own, sides), own)
+    changing = nodes_changed_by_removal(mesh, own, sides)
+    return (
+        None
+        if mesh.forest.has_hole(changing)
+        else LabelledRegion(mesh, sides, edges, changing, own)
+    )
 
 
 @final
@@ -102,7 +113,10 @@ class LabelledRegion(Region):
         forest = mesh.forest
         bodies = sorted({forest.body(node) for node in changing})
         self._changed = [
-            changed_geodesics(mesh, tree, changing) for i in bodies for tree in forest.bodies[i]
+            changed_geodesics(mesh, tree, changing)
+            for i in bodies
+            for tree in forest.bodies[i]
+            if tree.nodes[TOP] in changing
         ]
         paths = [
             (changed.tree.nodes[k], mesh.geodesic(changed.tree, k))

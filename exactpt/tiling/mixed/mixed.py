@@ -49,11 +49,11 @@ class MixedRules(FlippingRules):
         """See `Rules.empty_mesh`."""
         return LabelledMesh(0, Forest(vertices))
 
-    def region_of_insertion(self, zone: ConflictZone) -> Region:
+    def region_of_insertion(self, zone: ConflictZone) -> Region | None:
         """See `Rules.region_of_insertion`."""
         return region_of_insertion(self._labelled, zone.faces)
 
-    def region_of_removal(self, i: int) -> Region:
+    def region_of_removal(self, i: int) -> Region | None:
         """See `Rules.region_of_removal`."""
         return region_of_removal(self._labelled, i, self.certified.edges_at(i))
 

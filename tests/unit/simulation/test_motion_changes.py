@@ -284,3 +284,49 @@ def test_what_is_added_must_be_apart():
         simulation.add(Body("bow", [(30, 0), (40, 1), (40, 0), (30, 1)]))
     simulation.add(Body("new", [(5, 0)]))
     assert simulation.run_to_contact().time == 4
+
+
+def plates():
+    """A plate with a hole that holds 9 bodies, two holes beside each other, and a wall."""
+    inside = crowd(Random("plates"), 9, stars=True).bodies
+    plate = Body(
+        "plate", [(-99, -99), (300, -99), (300, 300), (-99, 300)],
+        holes=[[(-60, -60), (260, -60), (260, 260), (-60, 260)]],
+    )  # fmt: skip
+    two = Body(
+        "two", [(500, 0), (800, 0), (800, 300), (500, 300)],
+        holes=[[(510, 10), (600, 100), (510, 290)], [(620, 10), (790, 10), (790, 290)]],
+    )  # fmt: skip
+    return Scene([plate, two, *inside, Body("wall", [(450, 0), (451, 200), (440, 99)])], (0, 9))
+
+
+@pytest.mark.long("mixed")
+@pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
+def test_bodies_come_and_go_beside_holes(tiling):
+    """Only the mixed tiling is built anew, where geodesics of a hole change."""
+    new = Body("new", [(98, 145), (102, 147), (100, 149)], Translation([0, "1/64"]))
+    alone = Body("alone", [(700, 50), (720, 50), (720, 60)])
+    simulation = Simulation(plates(), tiling=tiling)
+    seen = []
+    for i, body in enumerate([new, alone, simulation.body("b4"), simulation.body("wall")]):
+        at(simulation, i)
+        before = simulation.stats["rebuilds"]
+        for _ in range(2):
+            if any(b.name == body.name for b in simulation.scene.bodies):
+                simulation.remove(body.name)
+            else:
+                simulation.add(body)
+            audit(simulation)
+        seen.append(simulation.stats["rebuilds"] - before)
+
+    assert seen == ([0, 2, 0, 0] if tiling == "mixed" else [0, 0, 0, 0])
+
+
+def test_a_body_added_in_a_plate_touches_it():
+    simulation = Simulation(plates())
+    with pytest.raises(InputError, match="touches body 'plate' at t = 0"):
+        simulation.add(Body("new", [(-90, -90), (-80, -90), (-80, -80)]))
+    with pytest.raises(InputError, match="touches body 'two' at t = 0"):
+        simulation.add(Body("new", [(550, 9), (560, 20), (555, 30)]))
+    with pytest.raises(InputError, match="touches body 'plate' at t = 0"):
+        simulation.add(Body("new", [(-500, -500), (900, -500), (900, 900), (-500, 900)]))

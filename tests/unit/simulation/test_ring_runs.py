@@ -92,7 +92,7 @@ def test_a_saved_run_goes_on(tmp_path):
 
 
 @pytest.mark.parametrize("tiling", TILINGS)
-def test_plans_of_a_body_with_holes_are_local_and_what_comes_or_goes_is_not(tiling):
+def test_plans_of_a_body_with_holes_and_what_comes_or_goes_in_them_are_local(tiling):
     simulation = Simulation(room(ball((0, 0))), tiling=tiling)
     list(simulation.run(until=1))
     simulation.set_motion("frame", Translation([-1, 1], [0]))
@@ -102,7 +102,9 @@ def test_plans_of_a_body_with_holes_are_local_and_what_comes_or_goes_is_not(tili
     simulation.add(Body("late", [(3, 8), (4, 8)]))
     simulation.add(Body("inner", [(9, 9)]))
     simulation.remove("late")
-    assert simulation.kinetic.stats.rebuilds == 3
+    assert simulation.kinetic.stats.rebuilds == (3 if tiling == "mixed" else 0)  # its loop changes
+    kinetic = simulation.kinetic
+    audit_at(kinetic, rational_between(kinetic.now, kinetic.next_number()))
     list(simulation.run())
     truth = first_contact(
         Scene([room(motion=Translation([-1, 1])).bodies[0], ball((0, 0)), Body("inner", [(9, 9)])],
