@@ -33,7 +33,7 @@ from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.turned_angle import bits_for, is_within
 
 _MOST: Final = 100_000
-_SHORTEST: Final = 1 / 41
+_SHORTEST: Final = 1 / 32
 """Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""
 
 Vector = tuple[QQ, QQ]
@@ -56,7 +56,7 @@ class Spin(Pieces):
         pivot: the centre of rotation.
         time: the start and the end of the span.
         error: the largest error of the angle, in radians. Pieces have a half turn of degree 1
-            for errors from about 10^-6 on, of higher degrees for smaller ones.
+            for errors from about 2 10^-6 on, of higher degrees for smaller ones.
         x: a translation, as in `Translation`, applied last.
         y: likewise.
 

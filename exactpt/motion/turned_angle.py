@@ -23,7 +23,8 @@ from exactpt.kernel.numbers import QQ, exponent, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
-_SAMPLES: Final = 8
+_SAMPLES: Final = (3, 8)
+"""Numbers of parts of a piece between samples: the second one where the first proves nothing."""
 _MAX_BITS: Final = 512
 
 
@@ -50,22 +51,28 @@ def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
 
 def _is_piece_within(turn: Rigid, a: QQ, b: QQ, omega: QQ, error: QQ) -> bool:
     check_budget()
-    h = turn.half_turn
-    slope = bound_on(2 * h.derivative() - omega * (ONE + h * h), a, b)
-    between = slope * (b - a) / (2 * _SAMPLES)
-    times = [a + (b - a) * QQ(i, _SAMPLES) for i in range(_SAMPLES + 1)]
-    if between > error or any(abs(h._at(t)) > 1 for t in times):
-        return False
+    half = turn.half_turn(Polynomial([a, b - a]))  # on [0, 1]
+    slope = _bound_on_unit(2 * half.derivative() - omega * (b - a) * (ONE + half * half))
     bits = bits_for(error, omega * max(abs(a), abs(b))) + 8
     turned = angle_of(turn._orientation, bits)
-    full = tuple(2 * bound for bound in pi_bounds(bits))
-    errors = []
-    for t in times:
-        half = atan_bounds(h._at(t), bits)
-        errors.append([p + 2 * q - omega * t for p, q in zip(turned, half, strict=True)])
-    k = floor(errors[0][0] / full[0] + QQ(1, 2))
-    turns = sorted((k * full[0], k * full[1]))
-    return all(max(high - turns[0], turns[1] - low) + between <= error for low, high in errors)
+
+    def is_within_by(samples: int) -> bool:
+        between = slope / (2 * samples)
+        if between > error:
+            return False
+        full = tuple(2 * bound for bound in pi_bounds(bits))
+        errors = []
+        for i in range(samples + 1):
+            h, t = half._at(QQ(i, samples)), a + (b - a) * QQ(i, samples)
+            if abs(h) > 1:
+                return False
+            by = zip(turned, atan_bounds(h, bits), strict=True)
+            errors.append([p + 2 * q - omega * t for p, q in by])
+        k = floor(errors[0][0] / full[0] + QQ(1, 2))
+        turns = sorted((k * full[0], k * full[1]))
+        return all(max(high - turns[0], turns[1] - low) + between <= error for low, high in errors)
+
+    return any(map(is_within_by, _SAMPLES))
 
 
 def angle_of(vector: tuple[QQ, QQ], bits: int) -> Bounds:
@@ -80,7 +87,11 @@ def angle_of(vector: tuple[QQ, QQ], bits: int) -> Bounds:
 
 def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
     """Return a bound on |f| in [a, b]: the largest of its Bernstein coefficients."""
-    c = f(Polynomial([a, b - a]))._coefficients
+    return _bound_on_unit(f(Polynomial([a, b - a])))
+
+
+def _bound_on_unit(f: Polynomial) -> QQ:
+    c = f._coefficients
     n = len(c) - 1
     largest = QQ(0)
     for j in range(n + 1):
