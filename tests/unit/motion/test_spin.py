@@ -12,6 +12,7 @@ import exactpt
 from exactpt import Body, InputError, Pieces, Rigid, Scene, Spin, Translation
 from exactpt.kernel.arctangents import atan_bounds, pi_bounds
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.turned_angle import is_within
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 
@@ -162,3 +163,13 @@ def test_bounds_of_arc_tangents():
             low, high = pi_bounds(bits)
             assert real(low) < mpmath.pi < real(high)
             assert high - low <= QQ(1, 2**bits)
+
+
+def test_pieces_of_the_default_error_have_half_turns_of_degree_3():
+    """Of degree 1 they were 856; the angle is as near."""
+    spin = Spin(1, time=(0, 20))
+
+    assert len(spin.pieces) == 130
+    assert {motion.half_turn.degree for _, motion in spin.pieces[1:-1]} == {3}
+    assert is_within(spin, QQ(1), QQ(1, 10**6))
+    assert not is_within(spin, QQ(1), QQ(1, 10**7))
