@@ -198,11 +198,15 @@ class Clearance:
     @cached_property
     def minimum(self) -> Minimum:
         """The least distance in the time span, and the first time at which it occurs."""
+        for piece in self.pieces:
+            if piece.features is None:
+                return Minimum(piece.start, AlgebraicNumber(0))
         best: tuple[AlgebraicNumber, AlgebraicNumber] | None = None
         places = []
         for piece in self.pieces:
             n, d = _poly(piece.numerator), _poly(piece.denominator)
             places += [(n, d, t, quotient_range(n, d, t, CLOSE)) for t in _candidates(piece)]
+        places.append((n, d, piece.end, quotient_range(n, d, piece.end, CLOSE)))
         most = min(high for *_, (_, high) in places)
         for n, d, time, (low, _) in places:
             if low <= most:
@@ -377,8 +381,8 @@ def _first_change(
 def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:
     """Return the maximal parts of a piece in which its quotient is at most a limit.
 
-    The denominator is a product of squares, so the sign of n - limit d just after a time is that
-    of n / d - limit.
+    The distance is finite, so without a common factor the denominator d is positive: the sign of
+    n - limit d at a time is that of n / d - limit.
     """
     n, d = _poly(piece.numerator), _poly(piece.denominator)
     f = subtract(scale(n, ZZ(limit.denominator)), scale(d, ZZ(limit.numerator)))
@@ -393,12 +397,12 @@ def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:
     for time, following in zip_longest(times, times[1:]):
         if following is not None and time.sign_after(f) < 0:
             yield piece._replace(start=time, end=following)
-        elif quotient_at(n, d, time).compare_rational(limit) <= 0:
+        elif time.sign_of(f) <= 0:
             yield piece._replace(start=time, end=time)
 
 
 def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
-    """Yield the times at which the distance may be least in a piece, in increasing order."""
+    """Yield the times before its end at which the distance may be least in a piece, in order."""
     yield piece.start
     n, d = _poly(piece.numerator), _poly(piece.denominator)
     slope = subtract(multiply(derivative(n), d), multiply(n, derivative(d)))
@@ -406,7 +410,6 @@ def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
         for root in roots_after(slope, piece.start, piece.end._high):
             if root.time < piece.end:
                 yield root.time
-        yield piece.end
 
 
 def _poly(coefficients: tuple[int, ...]) -> IntPoly:

@@ -27,8 +27,9 @@ class NearestApproach(NamedTuple):
     """The least distance of a body from all others; ``float`` gives the nearest double.
 
     Attributes:
-        body: the name of the other body; of several the first in the order of the scene.
-        time: the first time at which that body is at the least distance.
+        body: the name of the other body; of several that of the earliest time, of these the
+            first in the order of the scene.
+        time: the first time of the least distance.
         squared: the square of the least distance, exactly.
     """
 
@@ -111,27 +112,38 @@ class Surroundings:
             InputError: if the distance is negative.
         """
         given = a_distance(distance)
-        found = [i for other in self._near(given) for i in self.to(other).below(distance)]
+        found = [
+            interval
+            for other in self._near(given)
+            if self._first_within(other, given) is not None
+            for interval in self.to(other).below(distance)
+        ]
         return tuple(sorted(found, key=lambda interval: interval.start))
 
     @cached_property
     def minimum(self) -> NearestApproach:
         """The least distance from any other body in the time span."""
-        scene, first = self._scene, self._scene.body(self.name)
-        _, at_start = self.nearest(scene._start)
+        _, at_start = self.nearest(self._scene._start)
         bound = max(root_above(QQ(at_start.core_squared)) - QQ(at_start.radius), QQ(0))
         best: NearestApproach | None = None
         for other in self._near(bound):
             check_budget()
-            body = scene.body(other)
-            if time_within(first, body, scene._start, scene._end, bound**2, "euclidean") is None:
+            if self._first_within(other, bound) is None:
                 continue
-            least = self.to(other).minimum
-            if best is None or least.squared < best.squared:
+            touch = self._first_within(other, QQ(0))
+            least = self.to(other).minimum if touch is None else Minimum(touch, AlgebraicNumber(0))
+            if best is None or (least.squared, least.time) < (best.squared, best.time):
                 best = NearestApproach(other, *least)
                 bound = min(bound, root_above(best.squared._high))
         assert best is not None  # noqa: S101 - the body that is nearest at the start is one
         return best
+
+    def _first_within(self, other: str, d: QQ) -> AlgebraicNumber | None:
+        """Return the first time at which another body is within a distance."""
+        scene, first = self._scene, self._scene.body(self.name)
+        return time_within(
+            first, scene.body(other), scene._start, scene._end, d * d, "euclidean"
+        )
 
     def _near(self, reach: QQ) -> list[str]:
         """Return the names of the other bodies that may come within a distance."""

@@ -8,6 +8,7 @@ import pytest
 from exactpt import (
     Body,
     InputError,
+    PosePath,
     Scene,
     Translation,
     clearance,
@@ -16,7 +17,9 @@ from exactpt import (
     distance,
     first_within,
 )
+from exactpt.kernel import algebraic_value
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.pairs import clearance as clearance_module
 from fuzz.questions.scenes import crowded_scene
 
 SEEDS = range(12)
@@ -46,11 +49,12 @@ def test_minimum_is_the_least_of_all_pairs(seed):
     name, *others = (body.name for body in scene.bodies)
     alone = [(clearance(scene, name, other).minimum, other) for other in others]
     least = min(minimum.squared for minimum, _ in alone)
-    first = next((m, other) for m, other in alone if m.squared == least)
+    time = min(minimum.time for minimum, _ in alone if minimum.squared == least)
+    first = next(other for m, other in alone if (m.squared, m.time) == (least, time))
 
     found = clearance(scene, name).minimum
 
-    assert (found.body, found.time, found.squared) == (first[1], first[0].time, least)
+    assert (found.body, found.time, found.squared) == (first, time, least)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -105,6 +109,34 @@ def test_far_bodies_are_not_computed():
     assert around(10) == 1.0
     assert around.others == ("box", "far", "post 0", "post 1", "post 2")
     assert repr(around) == "<Surroundings of 'ball': 5 other bodies>"
+
+
+def test_bug_of_equal_distances_the_minimum_was_not_the_earliest():
+    """The later one is first in the scene; both touch, or both pass at a distance of 1."""
+    for height in (0, 1):
+        ball = Body("ball", [(0, height)], Translation([0, 1]))
+        posts = [Body(f"post {x}", [(x, 0)]) for x in (9, 5, 7)]
+        found = clearance(Scene([ball, *posts], time=(0, 10)), "ball").minimum
+        assert (found.body, found.time, found.squared) == ("post 5", 5, height)
+
+
+def test_bug_values_at_irrational_times_were_computed_that_are_not_needed(monkeypatch):
+    """Each took seconds where a body follows a path of poses: bounds compare nearly all of them."""
+    path = PosePath([0, 1], [([0, 3], [0, 0, 1], [0, 1])], error="1/9")
+    arm = Body("arm", [(-1, 0), (1, 0)], path)
+    computed = []
+    original = algebraic_value.quotient_at
+    for module in (algebraic_value, clearance_module):
+        monkeypatch.setattr(
+            module, "quotient_at", lambda *given: computed.append(given) or original(*given)
+        )
+    gap = clearance(Scene([arm, Body("post", [(3, -2)])], time=(0, 1)), "arm", "post")
+
+    assert len(gap.pieces) > 2
+    assert len(gap.below(3)) == 1
+    assert not computed
+    assert 2 < float(gap.minimum) < 3
+    assert len(computed) == 1
 
 
 def test_unusable_names_and_distances_are_refused():
