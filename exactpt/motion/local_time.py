@@ -110,7 +110,8 @@ def spline(curve: PiecewisePolynomial) -> Pieces:
     """
     shape: tuple[int, ...] = getattr(getattr(curve, "c", None), "shape", ())
     if len(shape) != 3 or shape[2] != 2:
-        raise InputError(f"not a piecewise polynomial curve in the plane: {shorten(curve)}")
+        hint = "; PosePath.of_curve takes x, y and an angle" if shape[2:] == (3,) else ""
+        raise InputError(f"not a piecewise polynomial curve in the plane: {shorten(curve)}{hint}")
     times = [rational(t) for t in curve.x]
     first = [rational(c) for c in curve.c[-1, 0]]
     steps: list[tuple[Rational | None, SimpleMotion]] = []

@@ -119,7 +119,10 @@ class Contact:
         more = f" and {len(pairs) - 1} more" if len(pairs) > 1 else ""
         names = [f"{shorten(a, 20)} and {shorten(b, 20)}" for a, b in self.overlaps[:1]]
         overlaps = f", {names[0]} overlap" if names and not pairs else ""
-        return f"<Contact at t = {str(self.time)[:90]}, {self.kind}{first}{more}{overlaps}>"
+        at = str(self.time)
+        if len(at) > 90:
+            at = f"{float(self.time)!r}..." if self.time.is_rational else repr(self.time)[1:-1]
+        return f"<Contact at t = {at}, {self.kind}{first}{more}{overlaps}>"
 
     @property
     def bodies(self) -> tuple[str, ...]:

@@ -65,8 +65,7 @@ def draw(
     ending = _ending(path)
     if (legend or poses) and (gap is not None or ending not in (".svg", ".png")):
         raise InputError(f"{path}: a legend and poses are for a picture of bodies")
-    if ending not in MOVIES and (seconds, fps) != (None, None):
-        raise InputError(f"{path}: seconds and fps are for a film, {' or '.join(MOVIES)}")
+    _check_film(path, seconds, fps)
     if poses < 0:
         raise InputError(f"poses: not a number of them: {poses}")
     if below is not None and (gap is None or below < 0):
@@ -100,14 +99,23 @@ def draw(
     _write_picture(path, svg_of(frame, theme=light))
 
 
-def draw_run(simulation: Simulation, path: Path, *, theme: str = "auto") -> None:
+def draw_run(
+    simulation: Simulation,
+    path: Path,
+    *,
+    theme: str = "auto",
+    seconds: Rational | None = None,
+    fps: int | None = None,
+) -> None:
     """Draw a simulation into a file, see `Simulation.draw`."""
     ending = _ending(path)
+    _check_film(path, seconds, fps)
     if ending == ".html":
         page = page_of(film_of_run(simulation.history()), title=path.stem, theme=theme)
         write_atomically(path, page)
     elif ending in MOVIES:
-        write_movie(film_of_run(simulation.history()), path, theme=_paper(theme))
+        film = film_of_run(simulation.history())
+        write_movie(film, path, theme=_paper(theme), seconds=seconds, fps=fps)
     else:
         light = _paper(theme) if ending == ".png" else theme
         _write_picture(path, svg_of(frame_of(still_of(simulation)), theme=light))
@@ -118,6 +126,11 @@ def _ending(path: Path) -> str:
     if ending not in ENDINGS:
         raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
     return ending
+
+
+def _check_film(path: Path, seconds: Rational | None, fps: int | None) -> None:
+    if path.suffix.lower() not in MOVIES and (seconds, fps) != (None, None):
+        raise InputError(f"{path}: seconds and fps are for a film, {' or '.join(MOVIES)}")
 
 
 def _paper(theme: str) -> str:

@@ -57,6 +57,7 @@ def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
     times = {start + span * k / SAMPLES for k in range(SAMPLES + 1)}
     times |= {min(near(t, span), end) for t in (least.time, *(p.end for p in gap.pieces))}
     curve = [(t, finite(gap(t))) for t in sorted(times)]
+    digits = 6 + len(str(int(max(abs(start), abs(end)) / span)))  # a millionth of the span
     top = max(*(d for _, d in curve), 0.0 if below is None else nearest_float(below))
     scale = top or 1.0
     return Plot(
@@ -72,7 +73,7 @@ def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
         below=None
         if below is None
         else (nearest_float(below) / scale, f"{nearest_float(below):.6g}"),
-        words=f"least {float(least):.6g} at {time_in_words(least.time.simplified())}",
+        words=f"least {float(least):.6g} at {time_in_words(least.time.simplified(), digits)}",
     )
 
 

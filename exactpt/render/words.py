@@ -31,14 +31,14 @@ def short(text: str, limit: int = 24) -> str:
     return f"{text[: limit - 1 - half]}…{text[len(text) - half :]}"
 
 
-def time_in_words(time: AlgebraicNumber | QQ) -> str:
+def time_in_words(time: AlgebraicNumber | QQ, digits: int = 12) -> str:
     """``t = 5/2``, or ``t ≈ 3.1415926`` for an irrational number or a long fraction."""
     low = getattr(time, "low", time)
     exact = str(rational(low))
     if low == getattr(time, "high", time) and len(exact) <= 16:
         return f"t = {exact}"
     near = float(time) if isinstance(time, AlgebraicNumber) else nearest_float(time)
-    return f"t ≈ {near:.12g}"
+    return f"t ≈ {near:.{digits}g}"
 
 
 def pair_in_words(pair: Pair) -> str:

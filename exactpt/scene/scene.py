@@ -138,6 +138,11 @@ class Scene:
         """The last time, after ``start``."""
         return fraction(self._end)
 
+    @property
+    def time(self) -> tuple[Fraction, Fraction]:
+        """The first and the last time, as `Scene` takes them."""
+        return self.start, self.end
+
     @classmethod
     def from_json(cls, data: Mapping[str, object]) -> Scene:
         """Return the scene in JSON data, as from `to_json`; see docs/format.md.

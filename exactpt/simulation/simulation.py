@@ -294,7 +294,10 @@ class Simulation:
                 now and the next event, or if the run has ended with a contact.
         """
         if self.contact is not None:
-            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
+            raise InputError(
+                f"no tiling at a contact, t = {float(self.contact.time)!r}: "
+                "there is one before it, where run(until=...) stops"
+            )
         with self._run.alone:
             self._run.check_whole()
             return self._spaces.space(self._run.mutable.kinetic, at)
@@ -360,7 +363,14 @@ class Simulation:
             raise InputError("the run is not remembered: Simulation(..., record=True) does that")
         return self._run.log.history(self.now, self.contact)
 
-    def draw(self, path: str | Path, *, theme: str = "auto") -> None:
+    def draw(
+        self,
+        path: str | Path,
+        *,
+        theme: str = "auto",
+        seconds: Rational | None = None,
+        fps: int | None = None,
+    ) -> None:
         """Draw the simulation into a file: now (.svg, .png), or the whole run so far.
 
         An animation (.html) or film (.gif, .mp4) of the run, which must be remembered
@@ -369,12 +379,15 @@ class Simulation:
         Args:
             path: the file; it is complete or not there.
             theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
+            seconds: the length of a film (8), before its last frame stays for a second.
+            fps: frames of a film in a second (20).
 
         Raises:
             InputError: if the suffix is unknown, a library is missing, the run is not
                 remembered, or no time has passed.
         """
-        extension("drawing of a simulation")(self, Path(path), theme=theme)
+        draw = extension("drawing of a simulation")
+        draw(self, Path(path), theme=theme, seconds=seconds, fps=fps)
 
     def _repr_html_(self) -> str | None:
         """Return the animation of a recorded run, for notebooks; None if there is a picture."""

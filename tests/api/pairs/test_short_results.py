@@ -46,6 +46,18 @@ def test_repr_of_results_has_at_most_200_characters(name):
         assert len(repr(result)) <= 200, repr(result)
 
 
+def test_bug_repr_of_a_contact_ended_within_a_long_polynomial():
+    ball = Body("ball", BOX, Translation([0], [9, 1, f"-1/{10**60}"]))
+    contact = first_contact(Scene([ball, Body("floor", [(-1, 0), (2, 0)])], (0, 10**70)))
+    assert "... (root of a polynomial of degree 2), vertex-" in repr(contact)
+    late = Body("late", [(-1, 0)], Translation([0, f"1/{10**60 + 7}"]))
+    contact = first_contact(Scene([late, Body("wall", [(0, -1), (0, 1)])], (0, 10**99)))
+    assert repr(contact).startswith("<Contact at t = 1000000000000000000")
+    late = Body("late", [(-1, 0)], Translation([0, f"{10**50 + 7}/{10**50 + 9}"]))
+    contact = first_contact(Scene([late, Body("wall", [(0, -1), (0, 1)])], (0, 9)))
+    assert repr(contact).startswith("<Contact at t = 1.0..., vertex-edge")
+
+
 def test_repr_of_events_of_a_crowd_has_at_most_200_characters():
     for event in Simulation(generate("mixed_shapes", 3)).run():
         assert len(repr(event)) <= 200

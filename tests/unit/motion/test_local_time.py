@@ -150,6 +150,11 @@ def test_what_is_no_curve_in_the_plane_is_refused(curve):
         spline(curve)
 
 
+def test_three_columns_are_sent_to_the_motion_that_takes_an_angle():
+    with pytest.raises(InputError, match=r"PosePath\.of_curve"):
+        spline(Curve(np.ones((2, 1, 3)), [0.0, 1.0]))
+
+
 def test_a_spline_with_a_coefficient_that_is_not_finite_is_refused():
     with pytest.raises(InputError, match="not a finite number"):
         spline(Curve([[[float("nan"), 0.0]]], [0.0, 1.0]))

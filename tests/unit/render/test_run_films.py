@@ -195,6 +195,15 @@ def test_a_run_as_a_page_and_as_a_picture(tmp_path):
         simulation.draw(tmp_path / "run.txt")
     with pytest.raises(InputError, match="record=True"):
         Simulation(small()).draw(tmp_path / "other.html")
+    with pytest.raises(InputError, match="seconds and fps are for a film"):
+        simulation.draw(tmp_path / "run.html", fps=5)
+
+
+def test_a_film_of_a_run_has_the_length_that_is_given(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    run(guest=False).draw(tmp_path / "run.gif", seconds="1/2", fps=10)
+    with image.open(tmp_path / "run.gif") as film:
+        assert film.n_frames == 6
 
 
 def test_without_pillow(tmp_path, monkeypatch):

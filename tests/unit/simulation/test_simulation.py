@@ -38,7 +38,7 @@ def test_run_ends_with_the_contact_and_stays_there(tiling):
     assert simulation.now == simulation.contact.time == 4
     assert list(simulation.run()) == []
     assert simulation.run_to_contact() is simulation.contact
-    with pytest.raises(InputError, match="no tiling at a contact"):
+    with pytest.raises(InputError, match="one before it, where run"):
         simulation.snapshot()
 
 
