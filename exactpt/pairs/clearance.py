@@ -202,13 +202,15 @@ class Clearance:
             if piece.features is None:
                 return Minimum(piece.start, AlgebraicNumber(0))
         best: tuple[AlgebraicNumber, AlgebraicNumber] | None = None
-        places = []
-        for piece in self.pieces:
-            n, d = _poly(piece.numerator), _poly(piece.denominator)
-            places += [(n, d, t, quotient_range(n, d, t, CLOSE)) for t in _candidates(piece)]
-        places.append((n, d, piece.end, quotient_range(n, d, piece.end, CLOSE)))
-        most = min(high for *_, (_, high) in places)
-        for n, d, time, (low, _) in places:
+        last = self.pieces[-1]
+        times = [(piece, time) for piece in self.pieces for time in _candidates(piece)]
+        places = [
+            (_poly(piece.numerator), _poly(piece.denominator), time)
+            for piece, time in [*times, (last, last.end)]
+        ]
+        ranges = [quotient_range(*place, CLOSE) for place in places]
+        most = min(high for _, high in ranges)
+        for (n, d, time), (low, _) in zip(places, ranges, strict=True):
             if low <= most:
                 value = quotient_at(n, d, time)
                 if best is None or value.compare(best[1]) < 0:
