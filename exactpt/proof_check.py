@@ -1133,8 +1133,8 @@ CONVEX, REFLEX, FLAT, FULL = "convex", "reflex", "flat", "full"
 
 
 @dataclass
-class Life:
-    """The life of an angle, of v -> w after u -> v; its kind is known from the sample on."""
+class Lifetime:
+    """The lifetime of an angle, of v -> w after u -> v; its kind is known from the sample on."""
 
     u: int
     since: Time
@@ -1159,7 +1159,7 @@ class Checker:
         self.ahead: dict[int, int] = {}  # on a ring of a closed body, which is on the left
         self.rigid: list[bool] = []
         self.solid: set[Dart] = set()
-        self.life: dict[Dart, Life] = {}
+        self.life: dict[Dart, Lifetime] = {}
         self.new_angles, self.new_faces, self.outer = set[Dart](), set[Face](), set[Face]()
 
     # The lines, and step 7: times increase.
@@ -1317,7 +1317,7 @@ class Checker:
         """Start the lives of angles at the current time."""
         for u, v, w in angles:
             if (v, w) not in self.solid:
-                self.life[v, w] = Life(u, self.now, self.line)
+                self.life[v, w] = Lifetime(u, self.now, self.line)
                 self.new_angles.add((v, w))
 
     def event(self, time: Time, words: list[str]) -> None:

@@ -273,14 +273,14 @@ class PredicatesAt(Predicates):
 
     def cross_sign(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
-        now = self.turn_now(a, b, c, d)
+        now = self.cross_sign_now(a, b, c, d)
         if now or not self.after:
             return now
         p, q, r, s = (self.vertices.all[i].track for i in (a, b, c, d))
         return self._number.sign_after(cross(p, q, r, s))
 
-    def turn_now(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """Return the `turn` at the time itself; 0 if the directions are parallel at that time."""
+    def cross_sign_now(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+        """Return the `cross_sign` at the time itself; 0 for parallel directions."""
         if not self._exact_only:
             x, y, off = self._x, self._y, self._d
             now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)

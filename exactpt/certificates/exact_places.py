@@ -13,7 +13,7 @@ from librt.vecs import vec
 
 from exactpt.certificates.coefficients import K
 from exactpt.indices import VertexId
-from exactpt.kernel.error_free import NOT_EXACT, exact_turn, is_exact_product, is_exact_sum
+from exactpt.kernel.error_free import NOT_EXACT, exact_cross_sign, is_exact_product, is_exact_sum
 from exactpt.motion.vertices import WIDTH, Vertices
 
 
@@ -42,7 +42,7 @@ class ExactPlaces:
         if not self._are_exact:
             return NOT_EXACT
         x, y = self._x, self._y
-        return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
+        return exact_cross_sign((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
 
     def is_slope(self, a: VertexId, b: VertexId, q: float) -> bool:
         """Return True if q, the double nearest to minus the slope of the line from a to b, is that.

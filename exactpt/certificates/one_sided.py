@@ -77,13 +77,13 @@ class OneSided(Predicates):
         v = self._all
         p, q, r, t = v[a], v[b], v[c], v[d]
         if not certifier.exact_only:
-            s = certifier.positions.cross_sign(p, q, r, t) or self._turn_at_end(a, b, c, d)
+            s = certifier.positions.cross_sign(p, q, r, t) or self._cross_sign_at_end(a, b, c, d)
             if s:
                 certifier.counters.filtered += 1
                 return s
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
-    def _turn_at_end(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+    def _cross_sign_at_end(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """Return the turn of two segments with a common end; 0 if undecided, or without one.
 
         (b - a) x (d - c) is then an orientation of the three vertices. It vanishes at each event at

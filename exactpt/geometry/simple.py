@@ -55,7 +55,7 @@ def is_surely_simple(
     return _no_edges_meet(xs, ys, error, closed=closed)
 
 
-def turn_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact: bool) -> int:
+def orientation_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact: bool) -> int:
     """1 if a simple polygon is counter-clockwise, -1 if it is clockwise, 0 if not certain.
 
     It is oriented as it turns at its leftmost vertex (`exactpt.geometry.polygon`). Numbers keep

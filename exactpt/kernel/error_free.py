@@ -35,7 +35,7 @@ def is_exact_product(a: float, b: float, product: float) -> bool:
     return error == 0.0
 
 
-def exact_turn(
+def exact_cross_sign(
     a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]
 ) -> int:
     """Return the sign of (b - a) x (d - c), if that is computed without rounding; else `NOT_EXACT`.

@@ -201,7 +201,7 @@ def _in_range(values: Floats) -> bool:
 def _turns(vertices: Floats, offsets: Indices, owner: Indices) -> Indices:
     """1 for each simple polygon that is counter-clockwise, -1 if clockwise, 0 if not certain.
 
-    By the turn at its leftmost vertex, the lowest of several, as `turn_of_doubles`.
+    By the turn at its leftmost vertex, the lowest of several, as `orientation_of_doubles`.
     """
     x, y = vertices.T
     first, last = offsets[:-1], offsets[1:] - 1

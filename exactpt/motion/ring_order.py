@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from exactpt.geometry.simple import turn_of_doubles
+from exactpt.geometry.simple import orientation_of_doubles
 from exactpt.kernel.numbers import QQ
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def turns_left(body: Body, ring: range, t: QQ) -> bool:
     if moved is not None:
         xs, ys, is_exact = moved[0]
         some = slice(ring.start, ring.stop)
-        turn = turn_of_doubles(xs[some], ys[some], is_exact=is_exact)
+        turn = orientation_of_doubles(xs[some], ys[some], is_exact=is_exact)
         if turn:
             return turn > 0
     from exactpt.geometry.polygon import is_counter_clockwise

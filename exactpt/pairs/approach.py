@@ -236,12 +236,12 @@ def _euclidean(scene: Scene, squared: QQ) -> Near | None:
     at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
     if at_start:
         return AlgebraicNumber(scene._start), at_start
-    rows = linear_pieces(scene)
-    if rows is None:
+    pieces = linear_pieces(scene)
+    if pieces is None:
         found = ApproachSearch(scene, limit, reach).run()
     else:
         margin = enclosing_floats(most / 2)[1]
-        found = first_among_pieces(rows, scene._start, scene._end, distance, margin)
+        found = first_among_pieces(pieces, scene._start, scene._end, distance, margin)
     if found is None:
         return None
     return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]

@@ -61,11 +61,14 @@ class PieceBoxes:
         self._oriented: OrientedBoxes | None = None
 
     @classmethod
-    def of(cls, rows: Sequence[MotionPiece], margin: float = 0.0) -> PieceBoxes:
+    def of(cls, pieces: Sequence[MotionPiece], margin: float = 0.0) -> PieceBoxes:
         """Return the boxes of some pieces, grown by a margin on each side."""
-        numbers = [(*_numbers(row.straight, margin), *_around(row.start, row.end)) for row in rows]
-        body = np.array([row.body for row in rows], dtype=np.int64)
-        return cls(body, np.array(numbers).reshape(-1, 13), lambda k: rows[k].straight.shape)
+        numbers = [
+            (*_numbers(piece.straight, margin), *_around(piece.start, piece.end))
+            for piece in pieces
+        ]
+        body = np.array([piece.body for piece in pieces], dtype=np.int64)
+        return cls(body, np.array(numbers).reshape(-1, 13), lambda k: pieces[k].straight.shape)
 
     def __len__(self) -> int:
         return len(self.body)

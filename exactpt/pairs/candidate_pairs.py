@@ -36,10 +36,10 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     if len(bodies) <= FEW and not any(body._breakpoints for body in bodies):
         return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
     found: dict[tuple[int, int], Spans] = {}
-    rows = linear_pieces(scene)
-    if rows is not None:
-        boxes = PieceBoxes.of(rows, enclosing_floats(reach / 2)[1])
-        for _, a, b in ScenePieces(rows, start, end, boxes).near():
+    pieces = linear_pieces(scene)
+    if pieces is not None:
+        boxes = PieceBoxes.of(pieces, enclosing_floats(reach / 2)[1])
+        for _, a, b in ScenePieces(pieces, start, end, boxes).near():
             pair = min(a.body, b.body), max(a.body, b.body)
             found.setdefault(pair, []).append((max(a.start, b.start), min(a.end, b.end)))
     else:

@@ -138,9 +138,9 @@ def _pair(
     x, y, w = v.x, v.y, v.w
     radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
     if any(radii):
-        from exactpt.pairs.radius_touch import place_of
+        from exactpt.pairs.radius_touch import touch_point
 
-        x, y, w, n_x, n_y, n_w = place_of(v, ends, *radii)
+        x, y, w, n_x, n_y, n_w = touch_point(v, ends, *radii)
         normal = nearest_quotient(n_x, n_w, time), nearest_quotient(n_y, n_w, time)
     elif len(ends) == 2:
         normal = _normal(outward, v, *ends, time)

@@ -94,28 +94,28 @@ class Obstacles:
         scene: the obstacles and the span.
 
     Attributes:
-        rows: their straight motions; None if one of them moves otherwise.
+        pieces: their linear motion pieces; None if one of them moves otherwise.
         origin: the origin of their doubles (`far_origin`).
     """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
         self.origin = far_origin(scene.bodies)
-        self.rows: list[MotionPiece] | None = linear_pieces(scene)
-        self._row_boxes = None if self.rows is None else PieceBoxes.of(self.rows)
+        self.pieces: list[MotionPiece] | None = linear_pieces(scene)
+        self._piece_boxes = None if self.pieces is None else PieceBoxes.of(self.pieces)
         self._slab_boxes: SlabBoxes | None = None
 
-    def near(self, rows: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
+    def near(self, pieces: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
         """Return the obstacles' pieces whose boxes intersect those of some pieces.
 
         They are numbered after all obstacles' pieces.
 
         Each pair comes with a time before which they do not; in the order of these times.
         """
-        if self._row_boxes is None or not self._row_boxes:
+        if self._piece_boxes is None or not self._piece_boxes:
             return []
-        n, m = len(self._row_boxes), len(rows)
-        boxes = self._row_boxes.joined(PieceBoxes.of(rows))
+        n, m = len(self._piece_boxes), len(pieces)
+        boxes = self._piece_boxes.joined(PieceBoxes.of(pieces))
         i, j = np.tile(np.arange(n), m), np.repeat(np.arange(n, n + m), n)
         enter, leave = boxes.windows(i, j, -np.inf, np.inf)
         meet = np.nonzero(enter <= leave)[0]

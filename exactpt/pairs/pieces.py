@@ -64,7 +64,7 @@ class ScenePieces:
     """Motion pieces of bodies, of which pairs are compared.
 
     Args:
-        rows: the pieces, by number.
+        pieces: the pieces, by number.
         start, end: a time span.
         pairs: the pairs to compare, by number, each with a time before which they do not touch, in
             the order of these times; or the boxes of the pieces, of which pairs are found.
@@ -72,27 +72,27 @@ class ScenePieces:
 
     def __init__(
         self,
-        rows: Sequence[MotionPiece] | Mapping[int, MotionPiece],
+        pieces: Sequence[MotionPiece] | Mapping[int, MotionPiece],
         start: QQ,
         end: QQ,
         pairs: Sequence[tuple[float, int, int]] | PieceBoxes,
     ) -> None:
-        self._rows = rows
+        self._pieces = pieces
         self._start, self._end = start, end
         self._pairs = pairs
 
     @classmethod
     def of(
-        cls, rows: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
+        cls, pieces: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
     ) -> ScenePieces:
         """Return the given pieces; if they are more than a few, with boxes grown by a margin."""
-        if len(rows) <= FEW:
-            every = combinations(range(len(rows)), 2)
-            pairs = [(-math.inf, i, j) for i, j in every if rows[i].body != rows[j].body]
-            return cls(rows, start, end, pairs)
+        if len(pieces) <= FEW:
+            every = combinations(range(len(pieces)), 2)
+            pairs = [(-math.inf, i, j) for i, j in every if pieces[i].body != pieces[j].body]
+            return cls(pieces, start, end, pairs)
         from exactpt.pairs.boxes import PieceBoxes
 
-        return cls(rows, start, end, PieceBoxes.of(rows, margin))
+        return cls(pieces, start, end, PieceBoxes.of(pieces, margin))
 
     def near_at_start(self) -> list[tuple[int, int]]:
         """Return the pairs i < j of bodies whose boxes intersect at the start."""
@@ -101,7 +101,7 @@ class ScenePieces:
 
             return sorted(set(pairs_at(self._pairs, self._start)))
         low, high = enclosing_floats(self._start)
-        two = ((self._rows[i], self._rows[j]) for time, i, j in self._pairs if time <= high)
+        two = ((self._pieces[i], self._pieces[j]) for time, i, j in self._pairs if time <= high)
         begin = [(a, b) for a, b in two if a.start == b.start == self._start]
         windows = ((a.body, b.body, window_of(a, b, low, high)) for a, b in begin)
         return [(i, j) for i, j, (enter, leave) in windows if not enter > leave]
@@ -116,10 +116,10 @@ class ScenePieces:
         Args:
             counts: whether contacts of two bodies, by number, count.
         """
-        rows, pairs = self._rows, self._pairs
+        pieces, pairs = self._pieces, self._pairs
         if isinstance(pairs, Sequence):
             for enter, i, j in pairs:
-                a, b = rows[i], rows[j]
+                a, b = pieces[i], pieces[j]
                 if counts(a.body, b.body):
                     yield enter, a, b
             return
@@ -128,12 +128,12 @@ class ScenePieces:
         body = pairs.body.tolist()
         for enter, i, j in candidate_pairs(pairs, self._start, self._end):
             if counts(body[i], body[j]):
-                yield enter, rows[i], rows[j]
+                yield enter, pieces[i], pieces[j]
 
 
 def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
     """Return the pieces of all bodies; None unless all of them move straight and are not large."""
-    rows: list[MotionPiece] = []
+    found: list[MotionPiece] = []
     origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
         check_budget()
@@ -142,8 +142,8 @@ def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
         pieces = straight_pieces(body, origin=origin)
         if pieces is None:
             return None
-        rows += pieces_during(i, pieces, scene._start, scene._end)
-    return rows
+        found += pieces_during(i, pieces, scene._start, scene._end)
+    return found
 
 
 def pieces_during(

@@ -84,16 +84,16 @@ class Planner:
         return [self._first(at_rest.with_motion(motion), outline) for motion in motions]
 
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:
-        scene, rows = self._scene, self._obstacles.rows
+        scene, prepared = self._scene, self._obstacles.pieces
         Scene([body], (scene.start, scene.end))
-        if rows is not None and outline is not None and body.size <= MAX_VERTICES:
+        if prepared is not None and outline is not None and body.size <= MAX_VERTICES:
             pieces = straight_pieces(body, outline, self._obstacles.origin)
             if pieces is not None:
                 number = len(scene.bodies)
                 moving = list(pieces_during(number, pieces, scene._start, scene._end))
-                all_rows, near = [*rows, *moving], self._obstacles.near(moving)
+                together, near = [*prepared, *moving], self._obstacles.near(moving)
                 planned = scene.going_on((*scene.bodies, body), scene._start)
-                few = ScenePieces(all_rows, scene._start, scene._end, near)
+                few = ScenePieces(together, scene._start, scene._end, near)
                 return LinearSearch(planned, few).run_to_contact()
         if scene.has_radius or body._radius or not is_rigid(body):  # boxes are those of cores
             whole = ActiveInterval(scene._start, scene._end, list(range(len(scene.bodies))))

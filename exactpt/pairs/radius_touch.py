@@ -19,7 +19,7 @@ from exactpt.motion.incidence import difference
 from exactpt.motion.track import Track
 
 
-class Place(NamedTuple):
+class TouchPoint(NamedTuple):
     """The point and the unit normal of a touch; both have a denominator that is positive then.
 
     Attributes:
@@ -35,8 +35,8 @@ class Place(NamedTuple):
     normal_w: IntPoly
 
 
-def place_of(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) -> Place:
-    """Return the place where a vertex touches a vertex, or the edge between two, by the radii."""
+def touch_point(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) -> TouchPoint:
+    """Return the point where a vertex touches a vertex, or the edge between two, by the radii."""
     foot = ends[0] if len(ends) == 1 else _foot(v, *ends)
     reach = radius + other_radius
     dx, dy = difference(foot.x, foot.w, v.x, v.w), difference(foot.y, foot.w, v.y, v.w)
@@ -49,7 +49,7 @@ def place_of(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) ->
     )
     normal_w = scale(w, ZZ(reach.numerator))
     n_x, n_y = (scale(gap, ZZ(reach.denominator)) for gap in (dx, dy))
-    return Place(x, y, scale(w, of_foot), n_x, n_y, normal_w)
+    return TouchPoint(x, y, scale(w, of_foot), n_x, n_y, normal_w)
 
 
 def _foot(v: Track, a: Track, b: Track) -> Track:

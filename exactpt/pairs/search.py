@@ -41,7 +41,7 @@ class LinearSearch:
 
     Args:
         scene: the bodies, their motions and the time span.
-        rows: the pieces of the bodies.
+        pieces: the pieces of the bodies.
         ignoring: groups of body names; contacts within a group are ignored.
         max_seconds: time limit, in seconds; None for no limit.
 
@@ -55,12 +55,12 @@ class LinearSearch:
     def __init__(
         self,
         scene: Scene,
-        rows: ScenePieces,
+        pieces: ScenePieces,
         ignoring: Collection[Collection[str]] = (),
         max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
-        self._rows = rows
+        self._pieces = pieces
         self._group = list(range(len(scene.bodies)))
         if ignoring or isinstance(ignoring, str):
             from exactpt.pairs.selection import groups_of
@@ -106,7 +106,7 @@ class LinearSearch:
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
-        near = [(i, j) for i, j in self._rows.near_at_start() if self._counts(i, j)]
+        near = [(i, j) for i, j in self._pieces.near_at_start() if self._counts(i, j)]
         if near:
             from exactpt.pairs.start import initial_touches
 
@@ -114,7 +114,7 @@ class LinearSearch:
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
         self._is_apart = True
-        found = self._search.run(self._rows.near(self._counts))
+        found = self._search.run(self._pieces.near(self._counts))
         return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _counts(self, i: int, j: int) -> bool:
@@ -129,9 +129,9 @@ def pair_search(
     max_seconds: float | None = None,
 ) -> LinearSearch | PairsSearch:
     """Return the search over pairs: for linear motion if all bodies are small and linear."""
-    rows = None if exact_only else scene_pieces_if_linear(scene)
-    if rows is not None:
-        return LinearSearch(scene, rows, ignoring, max_seconds)
+    pieces = None if exact_only else scene_pieces_if_linear(scene)
+    if pieces is not None:
+        return LinearSearch(scene, pieces, ignoring, max_seconds)
     from exactpt.pairs.features_sweep import PairsSearch
 
     return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
@@ -145,12 +145,12 @@ def scene_pieces_if_linear(scene: Scene) -> ScenePieces | None:
         pieces = pieces_on_demand(scene)
         if pieces is not None:
             return pieces
-    rows = linear_pieces(scene)
-    return None if rows is None else ScenePieces.of(rows, scene._start, scene._end)
+    linear = linear_pieces(scene)
+    return None if linear is None else ScenePieces.of(linear, scene._start, scene._end)
 
 
 def first_among_pieces(
-    rows: Sequence[MotionPiece],
+    pieces: Sequence[MotionPiece],
     start: QQ,
     end: QQ,
     distance: Distance = contact_distance,
@@ -159,13 +159,13 @@ def first_among_pieces(
     """Return the first contact in (start, end] of bodies that are disjoint at the start.
 
     Args:
-        rows: of all bodies.
+        pieces: of all bodies.
         start: the start.
         end: the end.
         distance: the distance of the cores at which bodies touch.
         margin: at least half of the distance less the sum of the radii.
     """
-    return _Search(distance).run(ScenePieces.of(rows, start, end, margin).near())
+    return _Search(distance).run(ScenePieces.of(pieces, start, end, margin).near())
 
 
 class _Search:

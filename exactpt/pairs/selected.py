@@ -71,7 +71,7 @@ class SelectedSearch:
         self._selection = Selection(scene, between, ignoring)
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._rows: dict[int, list[MotionPiece]] | None = None
+        self._pieces: dict[int, list[MotionPiece]] | None = None
         self.pairs = 0
 
     @property
@@ -138,11 +138,11 @@ class SelectedSearch:
         return [i for i, body in bodies if not body._radius and not is_rigid(body)]
 
     def _read_rows(self) -> None:
-        rows = None if self._exact_only else linear_pieces(self._scene)
-        if rows is not None:
-            self._rows = {i: [] for i in range(len(self._scene.bodies))}
-            for row in rows:
-                self._rows[row.body].append(row)
+        pieces = None if self._exact_only else linear_pieces(self._scene)
+        if pieces is not None:
+            self._pieces = {i: [] for i in range(len(self._scene.bodies))}
+            for piece in pieces:
+                self._pieces[piece.body].append(piece)
 
     def _renewed(self, i: int, j: int) -> Meeting | None:
         """Return the first new contact of two bodies that touch at the start.
@@ -168,9 +168,9 @@ class SelectedSearch:
         scene = self._scene
         if until <= scene._start:
             return None
-        if self._rows is not None:
-            rows = [row for i in pair for row in self._rows[i]]
-            met = first_among_pieces(rows, scene._start, until)
+        if self._pieces is not None:
+            pieces = [piece for i in pair for piece in self._pieces[i]]
+            met = first_among_pieces(pieces, scene._start, until)
             return None if met is None else (met.number, met.touches)
         part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []

@@ -93,7 +93,7 @@ class Bitangent:
         order does not matter; it is that of their lines. On one line they are ordered by theta
         just after the instant, perturbed.
         """
-        now = self._instant.turn_now(self.a, self.b, other.a, other.b)
+        now = self._instant.cross_sign_now(self.a, self.b, other.a, other.b)
         if now:
             return now < 0
         side = self._side_of(other)
@@ -105,7 +105,8 @@ class Bitangent:
     def is_parallel(self, other: Bitangent) -> bool:
         """Return True if two bitangents are parallel at the instant."""
         return (
-            self.key == other.key and self._instant.turn_now(self.a, self.b, other.a, other.b) == 0
+            self.key == other.key
+            and self._instant.cross_sign_now(self.a, self.b, other.a, other.b) == 0
         )
 
     def _side_of(self, other: Bitangent) -> int:
@@ -113,7 +114,11 @@ class Bitangent:
         if isinf(self.key):  # perhaps vertical
             mine, its = self.offset(), other.offset()
             return (its > mine) - (its < mine)
-        return 0 if self.a == other.a else self._instant.turn_now(self.a, self.b, self.a, other.a)
+        return (
+            0
+            if self.a == other.a
+            else self._instant.cross_sign_now(self.a, self.b, self.a, other.a)
+        )
 
     def offset(self) -> QQ:
         """Return the offset of the line among its parallels: y at x = 0, or x if vertical."""

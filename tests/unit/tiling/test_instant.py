@@ -69,7 +69,7 @@ def test_turns_of_directions(moving, t, after):
 
     for a, b, c, d in product(ids, repeat=4):
         assert fast.cross_sign(a, b, c, d) == exact.cross_sign(a, b, c, d)
-        assert fast.turn_now(a, b, c, d) == exact.turn_now(a, b, c, d)
+        assert fast.cross_sign_now(a, b, c, d) == exact.cross_sign_now(a, b, c, d)
 
 
 @pytest.mark.long
