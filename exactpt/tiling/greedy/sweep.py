@@ -81,8 +81,8 @@ class _Sweep:
         self._heap_size: i64 = 0
         self.tied: set[Ends] = set()
         self._chains: dict[int, tuple[Chain, Chain]] = {}
-        sizes = [len(body.ring) for body in instant.vertices.bodies]
-        self._all_are_small: bool = 2 * max(sizes, default=0) <= MANY
+        self._sizes: list[int] = [len(body.ring) for body in instant.vertices.bodies]
+        self._all_are_small: bool = 2 * max(self._sizes, default=0) <= MANY
 
     def run(self) -> list[Diagonal]:
         found: list[Diagonal] = []
@@ -202,7 +202,7 @@ class _Sweep:
 
         Those of the arcs, if the bodies have few vertices.
         """
-        if self._all_are_small or len(self._ring(x)) + len(self._ring(y)) <= MANY:
+        if self._all_are_small or self._sizes[x >> 1] + self._sizes[y >> 1] <= MANY:
             return self.cells.vertex[x], self.cells.vertex[y]
         a, b = self._chain(x, side_x), self._chain(y, side_y)
         return near_tangent(self.instant, a, b, side_x, side_y)

@@ -1,5 +1,6 @@
 """The rotational sweep where bitangents are parallel, and its repairs where they turn vertical."""
 
+from math import cos, pi, sin
 from random import Random
 
 import pytest
@@ -9,6 +10,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.vertex import MovingBody
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.build import build_mesh
@@ -99,3 +101,22 @@ def test_the_diagonal_of_a_bitangent_that_becomes_vertical_is_found():
 
     assert kinetic.stats.flips + kinetic.stats.total >= 200
     assert kinetic.stats.rebuilds == 0
+
+
+@pytest.mark.plain
+def test_bug_each_bitangent_listed_all_vertices_of_its_bodies(monkeypatch):
+    rng, listed = Random(1), []
+    bodies = [round_body(f"{i} {j}", 20 * i, 20 * j, rng) for i in range(3) for j in range(3)]
+    ring = MovingBody.ring
+    counted = property(lambda body: listed.append(body) or ring.fget(body), ring.fset)
+    monkeypatch.setattr(MovingBody, "ring", counted)
+
+    swept(bodies)
+
+    assert len(listed) <= 10 * len(bodies)
+
+
+def round_body(name, x, y, rng):
+    """A polygon of so many vertices that its bitangents are found by nested bisections."""
+    angles = [2 * pi * (i + rng.random() / 2) / 64 for i in range(64)]
+    return Body(name, [(x + 8 * cos(a), y + 8 * sin(a)) for a in angles])
