@@ -1,9 +1,11 @@
-"""The machine that a benchmark runs on, and the versions of all software that takes part."""
+"""The machine that a benchmark runs on, the date, and the versions of all software."""
 
 from __future__ import annotations
 
 import os
 import platform
+import subprocess
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Final
@@ -17,11 +19,12 @@ OWN: Final = ("exactpt", "gmpy2", "numpy")
 
 
 def machine() -> list[str]:
-    """One line each: processor, system, build of exactpt, and the version of every package."""
+    """One line each: processor and system, build of exactpt, date and commit, all versions."""
     versions = [f"{name} {_version(name)}" for name in (*OWN, *PEERS)]
     return [
         f"{_processor()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
         f"exactpt {'plain Python' if filters.__file__.endswith('.py') else 'compiled by mypyc'}",
+        f"measured on {datetime.now(UTC):%Y-%m-%d} at {_commit()}",
         f"Python {platform.python_version()}, " + ", ".join(versions),
     ]
 
@@ -31,6 +34,17 @@ def _version(package: str) -> str:
         return version(package)
     except PackageNotFoundError:
         return "not installed"
+
+
+def _commit() -> str:
+    """The commit of the checkout, and whether the package differs from it."""
+    git = ["git", "-C", str(Path(__file__).parent)]
+    try:
+        head = subprocess.check_output([*git, "rev-parse", "--short", "HEAD"], text=True)
+        same = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "../exactpt"], check=False)
+    except (OSError, subprocess.CalledProcessError):
+        return "an unknown commit"
+    return f"commit {head.strip()}" + (", with changes" if same.returncode else "")
 
 
 def _processor() -> str:

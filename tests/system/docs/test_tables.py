@@ -1,0 +1,52 @@
+"""Tables of the pages are those of the files that benchmarks have written (docs/data)."""
+
+import re
+
+import pytest
+from folding import every
+
+from docs.make_tables import DOCS, MARKED, filled
+
+PAGES = [path for path in sorted(DOCS.rglob("*.md")) if MARKED.search(path.read_text("utf-8"))]
+
+
+@every("page", PAGES)
+def test_tables_of_a_page_are_those_of_its_files(page):
+    text = page.read_text(encoding="utf-8")
+
+    assert filled(text) == text, "run: python docs/make_tables.py"
+
+
+def test_every_file_of_data_has_a_date_a_commit_and_a_table():
+    named = {m[2] for page in PAGES for m in MARKED.finditer(page.read_text(encoding="utf-8"))}
+
+    assert {DOCS / "data" / name for name in named} == set((DOCS / "data").glob("*/*.csv"))
+    for machine in {(DOCS / "data" / name).with_name("machine.txt") for name in named}:
+        about = machine.read_text(encoding="utf-8")
+        assert re.search(
+            r"^measured on \d{4}-\d\d-\d\d at commit [0-9a-f]{7,}$", about, re.MULTILINE
+        )
+        assert "full sizes" in about
+
+
+@pytest.mark.parametrize(
+    "view, lines",
+    [
+        ("name, count", ["| name | count |", "| --- | ---: |", "| a | 1,234 |", "| b | 0.125 |"]),
+        ("name by count, share %", ["| name | 1234 | 0.125 |", "| --- | ---: | ---: |",
+                                    "| a | 50.0 % |  |", "| b |  |  |"]),
+    ],
+)  # fmt: skip
+def test_a_table_is_made_anew(view, lines, tmp_path, monkeypatch):
+    monkeypatch.setattr("docs.make_tables.DOCS", tmp_path)
+    folder = tmp_path / "data" / "x"
+    folder.mkdir(parents=True)
+    (folder / "x.csv").write_text("name,count,share\na,1234,0.5\nb,0.125,\n")
+    (folder / "machine.txt").write_text("P, 2 processors\nbuild\nmeasured on D\nPython 3\nseed 0\n")
+
+    page = filled(f"before\n<!-- table x/x.csv: {view} -->\nold\n<!-- end of table -->\nafter\n")
+
+    assert page.splitlines() == [
+        "before", f"<!-- table x/x.csv: {view} -->", *lines, "",
+        "Measured on D; build, Python 3, P.", "<!-- end of table -->", "after",
+    ]  # fmt: skip
