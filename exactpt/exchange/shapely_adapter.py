@@ -33,16 +33,6 @@ if TYPE_CHECKING:
     from exactpt.motion.motions import Motion
     from exactpt.scene.scene import Scene
 
-__all__ = [
-    "BaseGeometry",
-    "body_from",
-    "geometries_of",
-    "mended",
-    "outlined",
-    "read_wkt",
-    "scene_from",
-    "shapes_of_geometry",
-]
 
 _MAX_CHORDS: Final = 10_000
 """Maximum number of chords of a quarter of a circle."""

@@ -23,7 +23,7 @@ from exactpt.errors import InputError
 
 if TYPE_CHECKING:
     ZZ = int
-    from fractions import Fraction as QQ
+    QQ = Fraction
 
     def gcd(*values: ZZ) -> ZZ:
         """Return the greatest common divisor, never negative."""
@@ -48,34 +48,6 @@ else:
     isqrt_rem = gmpy2.isqrt_rem
     is_square = gmpy2.is_square
     digits = gmpy2.unpack
-
-__all__ = [
-    "QQ",
-    "ZZ",
-    "Rational",
-    "SupportsRatio",
-    "as_doubles",
-    "ceil",
-    "digits",
-    "enclosing_floats",
-    "exponent",
-    "finite",
-    "floor",
-    "fraction",
-    "fractions",
-    "gcd",
-    "is_square",
-    "isqrt",
-    "isqrt_rem",
-    "nearest_float",
-    "parse_rational",
-    "place",
-    "power_of_two",
-    "rational",
-    "rationals",
-    "show",
-    "sign",
-]
 
 
 class SupportsRatio(Protocol):
