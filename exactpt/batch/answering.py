@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from itertools import islice
 from typing import Final
 
@@ -17,6 +15,7 @@ from exactpt.batch.options import Options
 from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.collection import collector_at_rest
 from exactpt.renamed import renamed
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
@@ -87,23 +86,11 @@ def _scene(content: bytes) -> Scene:
 def _by_arrays(contents: Sequence[bytes], options: Options) -> dict[int, Answer]:
     """Return the results that filters have found, by the index of the scene."""
     try:
-        with options.budget(), _uncollected():
+        with options.budget(), collector_at_rest():
             check_budget()
             return _screened(_read(contents, options.max_bytes), contents)
     except BudgetExceeded:  # each by itself
         return {}
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Switch the garbage collector off: parsed scenes have no cycles, but are looked through."""
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()
 
 
 def _read(contents: Sequence[bytes], longest: int) -> dict[int, TwoBodies]:

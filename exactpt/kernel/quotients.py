@@ -11,6 +11,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import IntPoly, range_on, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
+from exactpt.kernel.real_number import rounded_decimal
 
 
 def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
@@ -64,19 +65,15 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
     while True:
         check_budget()
         low, high = _range(p, w, time._low, time._high)
-        a, b = _rounded(low, context), _rounded(high, context)
+        a, b = rounded_decimal(low, context), rounded_decimal(high, context)
         if a == b:
             return a
         if b == context.next_plus(a):
             middle = (QQ(*a.as_integer_ratio()) + QQ(*b.as_integer_ratio())) / 2
             f = subtract(scale(p, ZZ(middle.denominator)), scale(w, ZZ(middle.numerator)))
             s = time.sign_of(f)
-            return _rounded(middle, context) if s == 0 else b if s > 0 else a
+            return rounded_decimal(middle, context) if s == 0 else b if s > 0 else a
         time.refine()
-
-
-def _rounded(value: QQ, context: Context) -> Decimal:
-    return context.divide(Decimal(int(value.numerator)), Decimal(int(value.denominator)))
 
 
 def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:

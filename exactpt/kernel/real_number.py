@@ -103,7 +103,7 @@ class RealNumber(IsolatedRoot):
             return format(float(self), spec)
         context = Context(int(match[1]) + len(str(int(self))) + 30)
         while True:
-            low, high = (format(_quotient(q, context), spec) for q in (self._low, self._high))
+            low, high = (format(rounded_decimal(q, context), spec) for q in (self._low, self._high))
             if low == high:
                 return low
             self.refine()
@@ -131,7 +131,8 @@ def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]}...{text[-8:]}"
 
 
-def _quotient(q: QQ, context: Context) -> Decimal:
+def rounded_decimal(q: QQ, context: Context) -> Decimal:
+    """Return the decimal nearest to a rational."""
     return context.divide(Decimal(int(q.numerator)), Decimal(int(q.denominator)))
 
 

@@ -10,7 +10,7 @@ from typing import final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, show
+from exactpt.kernel.numbers import QQ, nearest_float, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
@@ -170,17 +170,9 @@ class Course:
 
 def jump(t: QQ, a: tuple[QQ, QQ], b: tuple[QQ, QQ]) -> str:
     """Return the words of a message about a jump at t from a to b."""
-    size = math.hypot(_nearest(b[0] - a[0]), _nearest(b[1] - a[1]))
-    places = [f"({_nearest(x):.9g}, {_nearest(y):.9g})" for x, y in (a, b)]
+    size = math.hypot(nearest_float(b[0] - a[0]), nearest_float(b[1] - a[1]))
+    places = [f"({nearest_float(x):.9g}, {nearest_float(y):.9g})" for x, y in (a, b)]
     return f"jumps at t = {show(t)} from {places[0]} to {places[1]}, by {size:.3g}"
-
-
-def _nearest(x: QQ) -> float:
-    """Return the nearest double; an infinity beyond the range."""
-    try:
-        return float(x)
-    except OverflowError:
-        return math.inf if x > 0 else -math.inf
 
 
 def _exact(x: float) -> QQ:

@@ -98,9 +98,7 @@ class Log:
 
     def add_contact(self, contact: Contact) -> None:
         """Add a contact of bodies."""
-        names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
-        names.update(name for pair in contact.overlaps for name in pair)
-        self._marks.append(Mark(contact.time, "contact", tuple(sorted(names))))
+        self._marks.append(Mark(contact.time, "contact", tuple(sorted(contact.bodies))))
 
     def changed(self, t: QQ, bodies: Iterable[Body]) -> None:
         """At a rational time, these are the bodies and their motions; takes time linear in them."""

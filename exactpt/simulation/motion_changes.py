@@ -23,6 +23,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
+from exactpt.motion.outline import pieces_of
 
 GRID = power_of_two(-20)
 """Default grid of velocities."""
@@ -99,26 +100,28 @@ def onward(
     """
     now = rational(t)
     vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
-    v = round_to_grid(vx, grid), round_to_grid(vy, grid)
+    x, y = (
+        Polynomial([f._at(now) - v * now, v])
+        for f, v in zip(
+            translation_at(body, now),
+            (round_to_grid(vx, grid), round_to_grid(vy, grid)),
+            strict=True,
+        )
+    )
+    later = [
+        (_translated(m, x, y), end) for m, end in pieces_of(body.motion) if end is None or end > now
+    ]
     if not isinstance(body.motion, Pieces):
-        return _onward(body.motion, now, v)
-    pieces: list[tuple[QQ | None, SimpleMotion]] = []
-    x, y = translation_at(body, now)
-    line = Polynomial([x._at(now) - v[0] * now, v[0]]), Polynomial([y._at(now) - v[1] * now, v[1]])
-    for end, motion in zip([*body.motion._until, None], body.motion.motions, strict=True):
-        if end is None or end > now:
-            pieces.append((end, _translated(motion, *line)))
-    return Pieces(pieces)
+        return later[0][0]
+    return Pieces([(end, motion) for motion, end in later])
 
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
     """Return the translational part of a body's motion just after a time."""
-    motion = body.motion
-    if isinstance(motion, Pieces):
-        ends = [*motion._until, None]
-        parts = zip(ends, motion.motions, strict=True)
-        motion = next(m for end, m in parts if end is None or end > t)
-    return _translation(motion)
+    motion = body._piece_after(t).motion
+    if isinstance(motion, (Translation, Rigid, Affine)):
+        return motion.x, motion.y
+    raise InputError(f"a motion of this kind has no translation: {motion!r}")
 
 
 def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
@@ -139,19 +142,6 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
         t = near
     x, y = translation_at(body, t)
     return x.derivative()._at(t), y.derivative()._at(t)
-
-
-def _onward(motion: SimpleMotion, t: QQ, v: tuple[QQ, QQ]) -> SimpleMotion:
-    x, y = _translation(motion)
-    return _translated(
-        motion, Polynomial([x._at(t) - v[0] * t, v[0]]), Polynomial([y._at(t) - v[1] * t, v[1]])
-    )
-
-
-def _translation(motion: SimpleMotion) -> tuple[Polynomial, Polynomial]:
-    if isinstance(motion, (Translation, Rigid, Affine)):
-        return motion.x, motion.y
-    raise InputError(f"a motion of this kind has no translation: {motion!r}")
 
 
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
