@@ -11,7 +11,7 @@ from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
 from exactpt.render.data import touched_edges
 from exactpt.render.labels import Named, labels
 from exactpt.render.palette import TINTS, body_colour
-from exactpt.render.window import ARROW, Pixel, Window, window_of
+from exactpt.render.window import ARROW, Pixel, Window, widened, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
@@ -124,11 +124,10 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
     others = _other_places(scene, poses) if poses else {}
     window = window_of(
         [
-            (x + side * body._radius, y + side * body._radius)
+            point
             for body in scene.bodies
             for points in (places[body.name], *others.get(body.name, ()))
-            for x, y in points
-            for side in ((1, -1) if body._radius else (0,))
+            for point in widened(points, body._radius)
         ]
     )
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.render.fixed import BITS, exponent_above, fixed
 from exactpt.render.palette import body_colour
+from exactpt.render.window import widened
 from exactpt.render.words import contact_in_words, pair_in_words, short
 
 if TYPE_CHECKING:
@@ -71,11 +72,10 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
         for t in times
         for values in zip(
             *(
-                (x + s, y + s)
+                point
                 for i, body in enumerate(scene.bodies)
                 if film.is_there(i, t)
-                for x, y in body._at(t)
-                for s in ((body._radius, -body._radius) if body._radius else (0,))
+                for point in widened(body._at(t), body._radius)
             ),
             strict=True,
         )

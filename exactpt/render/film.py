@@ -109,14 +109,14 @@ def film_of(
     """
     if tiling is None or scene.has_radius:
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
-        return _without_tiling(scene, "no", contact)
+        return film_without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)
     driver = Driver(scene, budget=budget)
     with carrying(lambda: scene), searching(None, driver.contact_free_until), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
         contact = driver.start(plan)
         if contact is not None:
-            return _without_tiling(scene, plan.name, contact)
+            return film_without_tiling(scene, plan.name, contact)
         node = driver.tiled.kinetic.vertices.nodes()
         tracker = Tracker(driver.tiled.kinetic, node)
         driver.observers.append(tracker)
@@ -138,12 +138,12 @@ def film_of(
     return Film(scene, plan.name, tuple(steps), edges, tiles, contact)
 
 
-def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
+def film_without_tiling(
+    scene: Scene, name: str, contact: Contact | None, spans: tuple[tuple[QQ, QQ], ...] = ()
+) -> Film:
     """Return a film of bodies alone, up to the contact."""
-    steps: tuple[Step, ...] = ()
-    if contact is not None:
-        steps = (Step(contact.time, [Change("contact", (), ())], ()),)
-    return Film(scene, name, steps, (), (), contact)
+    steps = () if contact is None else (Step(contact.time, [Change("contact", (), ())], ()),)
+    return Film(scene, name, steps, (), (), contact, spans)
 
 
 def _step(kinetic: Tiling, node: list[int], changes: list[Change]) -> Step:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final, TypeVar
 
 from exactpt.kernel.numbers import rational
-from exactpt.render.film import Change, Film, Step, film_of
+from exactpt.render.film import Change, Film, Step, film_of, film_without_tiling
 from exactpt.render.tracker import EdgeSpan, TileSpan
 from exactpt.render.words import clean, short
 from exactpt.scene.scene import scene_of
@@ -28,7 +28,7 @@ _NAMED: Final = 4
 """Maximum number of bodies that an event names."""
 
 
-def film_of_run(history: History, *, tiling: str = "auto") -> Film:
+def film_of_run(history: History) -> Film:
     """Return the film of a run so far.
 
     With the same bodies throughout, it is that of `History.scene`, with a tiling; bodies that
@@ -38,13 +38,11 @@ def film_of_run(history: History, *, tiling: str = "auto") -> Film:
         InputError: if no time has passed.
     """
     if history.is_scene:
-        return _marked(film_of(history.scene(), tiling=tiling), history.marks)
+        return _marked(film_of(history.scene()), history.marks)
     lives = history.lives
     scene = scene_of([life.body for life in lives], rational(history.start), rational(history.end))
     spans = tuple((rational(life.since), rational(life.until)) for life in lives)
-    contact = history.contact
-    steps = () if contact is None else (Step(contact.time, [Change("contact", (), ())], ()),)
-    return _marked(Film(scene, "no", steps, (), (), contact, spans), history.marks)
+    return _marked(film_without_tiling(scene, "no", history.contact, spans), history.marks)
 
 
 def _marked(film: Film, marks: Sequence[Mark]) -> Film:

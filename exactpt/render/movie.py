@@ -15,7 +15,7 @@ from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.render.canvas import Canvas, Line, Shape, Tile, marks_of
 from exactpt.render.fixed import near
 from exactpt.render.palette import body_colour
-from exactpt.render.window import Window, window_of
+from exactpt.render.window import Window, widened, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
@@ -164,12 +164,11 @@ def frames_of(film: Film, count: int) -> Iterator[Canvas]:
 def _window(film: Film, times: list[QQ]) -> Window:
     return window_of(
         [
-            (x + side * body._radius, y + side * body._radius)
+            point
             for t in times
             for i, body in enumerate(film.scene.bodies)
             if film.is_there(i, t)
-            for x, y in body._at(t)
-            for side in ((1, -1) if body._radius else (0,))
+            for point in widened(body._at(t), body._radius)
         ]
     )
 

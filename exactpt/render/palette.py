@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import colorsys
-from typing import Final
+from collections.abc import Callable
+from typing import Final, TypeAlias
 
 TINTS: Final = 6
 """Number of tints for tiles."""
@@ -67,6 +68,27 @@ DARK: Final[dict[str, str]] = {
     "tint4": "#1d2a19",
     "tint5": "#2c1c2a",
 }
+
+FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
+
+Rules: TypeAlias = Callable[[dict[str, str]], dict[str, str]]
+"""The style rules for given colours, by selectors."""
+
+
+def style_of(theme: str, kind: str, rules: Rules) -> str:
+    """Return the style rules of a theme, each under a class: a page may hold many pictures."""
+    if theme != "auto":
+        return _under(f".{kind}-{theme}", rules(DARK if theme == "dark" else LIGHT))
+    light, dark = (_under(f".{kind}-auto", rules(colours)) for colours in (LIGHT, DARK))
+    return f"{light}@media (prefers-color-scheme:dark){{{dark}}}"
+
+
+def _under(name: str, rules: dict[str, str]) -> str:
+    return "".join(
+        f"{name} {part}{{{rule}}}"
+        for selector, rule in rules.items()
+        for part in selector.split(",")
+    )
 
 
 def body_colour(index: int) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from exactpt.kernel.numbers import QQ, finite, nearest_float, rational
 from exactpt.render.fixed import near
-from exactpt.render.palette import DARK, LIGHT
+from exactpt.render.palette import FONT, style_of
 from exactpt.render.words import clean, short, time_in_words
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ SAMPLES: Final = 240
 MAX_TICKS: Final = 10
 WIDTH, HEIGHT, LEFT, TOP, ROOM, BELOW = 800, 300, 70, 64, 20, 44
 """Size of a document in pixels, and its margins: left, above, right, below."""
-FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
 
 class Plot(NamedTuple):
@@ -103,7 +102,7 @@ def svg_of_plot(plot: Plot, *, theme: str = "auto") -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" class="plot-{theme}" {size} role="img">',
         f"<title>{_text(plot.title)}</title>",
-        f"<style>{_style(theme)}</style>",
+        f"<style>{style_of(theme, 'plot', _rules)}</style>",
         f'<rect class="paper" width="{WIDTH}" height="{HEIGHT}"/>',
         f'<text class="caption" x="20" y="27">{_text(plot.title)}</text>',
         f'<text class="news" x="20" y="48">{_text(plot.words)}</text>',
@@ -143,15 +142,8 @@ def _pixel(point: tuple[float, float]) -> tuple[float, float]:
     return LEFT + x * (WIDTH - LEFT - ROOM), HEIGHT - BELOW - y * (HEIGHT - TOP - BELOW)
 
 
-def _style(theme: str) -> str:
-    if theme == "auto":
-        dark = _rules(DARK, theme)
-        return f"{_rules(LIGHT, theme)}@media (prefers-color-scheme:dark){{{dark}}}"
-    return _rules(DARK if theme == "dark" else LIGHT, theme)
-
-
-def _rules(colours: dict[str, str], theme: str) -> str:
-    rules = {
+def _rules(colours: dict[str, str]) -> dict[str, str]:
+    return {
         "text": f"font-family:{FONT};fill:{colours['ink']}",
         ".paper": f"fill:{colours['paper']}",
         ".caption": "font-size:16px;font-weight:600",
@@ -163,7 +155,6 @@ def _rules(colours: dict[str, str], theme: str) -> str:
         ".below": f"stroke:{colours['contact']};stroke-dasharray:8 4",
         ".least": f"fill:{colours['contact']}",
     }
-    return "".join(f".plot-{theme} {selector}{{{rule}}}" for selector, rule in rules.items())
 
 
 def strip_of(plot: Plot) -> str:

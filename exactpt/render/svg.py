@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import escape
 
-from exactpt.render.palette import DARK, LIGHT, TINTS
+from exactpt.render.palette import FONT, TINTS, style_of
 from exactpt.render.window import HEADER, Pixel, arrow
 from exactpt.render.words import clean, short
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 _COLUMN: Final = 190
 """Width of a legend."""
 _ROW: Final = 18
-_FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
 
 def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
@@ -29,10 +29,11 @@ def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
     width, height = frame.window.width + column, frame.window.height + HEADER
     size = f'width="{width}" height="{height}"'
     box = f'viewBox="0 0 {width} {height}"'
+    rules = partial(_rules, has_more=bool(frame.scale or frame.ghosts))
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" class="exactpt-{theme}" {box} {size} role="img">',
         f"<title>{_text(frame.caption)}</title>",
-        f"<style>{_style(theme, has_more=bool(frame.scale or frame.ghosts))}</style>",
+        f"<style>{style_of(theme, 'exactpt', rules)}</style>",
         f'<rect class="paper" {size}/>',
         f'<text class="caption" x="20" y="27">{_text(frame.caption)}</text>',
         f'<text class="news" x="20" y="48">{_text(frame.news)}</text>',
@@ -53,19 +54,10 @@ def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
     return "\n".join(parts) + "\n"
 
 
-def _style(theme: str, *, has_more: bool) -> str:
-    """Return the style rules of a theme, prefixed by its class: a page may hold many pictures."""
-    if theme == "auto":
-        dark = _rules(DARK, theme, has_more=has_more)
-        light = _rules(LIGHT, theme, has_more=has_more)
-        return f"{light}@media (prefers-color-scheme:dark){{{dark}}}"
-    return _rules(DARK if theme == "dark" else LIGHT, theme, has_more=has_more)
-
-
-def _rules(colours: dict[str, str], theme: str, *, has_more: bool) -> str:
+def _rules(colours: dict[str, str], *, has_more: bool) -> dict[str, str]:
     halo = f"paint-order:stroke;stroke:{colours['paper']};stroke-linejoin:round"
     rules = {
-        "text": f"font-family:{_FONT};fill:{colours['ink']}",
+        "text": f"font-family:{FONT};fill:{colours['ink']}",
         "path,line,polygon,polyline,circle": "vector-effect:non-scaling-stroke",
         ".paper": f"fill:{colours['paper']}",
         ".caption": "font-size:16px;font-weight:600",
@@ -88,11 +80,7 @@ def _rules(colours: dict[str, str], theme: str, *, has_more: bool) -> str:
             ".legend text": "font-size:12px",
             ".bar": f"stroke:{colours['ink']};stroke-width:2;fill:none",
         }
-    return "".join(
-        f".exactpt-{theme} {part}{{{rule}}}"
-        for selector, rule in rules.items()
-        for part in selector.split(",")
-    )
+    return rules
 
 
 def _group(name: str, parts: Iterable[str]) -> Iterator[str]:

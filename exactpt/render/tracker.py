@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
@@ -57,23 +56,6 @@ class TileSpan(NamedTuple):
 
 
 @final
-@dataclass(slots=True)
-class _Tile:
-    nodes: tuple[int, ...]
-    corners: tuple[int, ...]
-    tint: int
-    inside: bool
-    place: Tile
-    since: int
-
-    def span(self, last: int | None) -> TileSpan:
-        """Return the lifetime of the tile, up to a step."""
-        return TileSpan(
-            self.nodes, self.corners, self.tint, self.inside, self.place, self.since, last
-        )
-
-
-@final
 class Tracker(Observer):
     """Observes the mesh of a kinetic tiling.
 
@@ -90,7 +72,7 @@ class Tracker(Observer):
         self._seen: list[tuple[object, ...] | None] = []
         self._labels: list[frozenset[int]] = []
         self._tile_of: list[int] = []
-        self._tiles: dict[int, _Tile] = {}
+        self._tiles: dict[int, TileSpan] = {}
         self._made = 0
         self._members: dict[tuple[int, int], set[int]] = {}
         self._key_of: dict[int, tuple[int, int]] = {}
@@ -104,8 +86,7 @@ class Tracker(Observer):
     @property
     def tiles(self) -> list[TileSpan]:
         """All tiles so far."""
-        here = [tile.span(None) for tile in self._tiles.values()]
-        return [tile for tile in self._gone_tiles + here if len(tile.nodes) > 2]
+        return [t for t in (*self._gone_tiles, *self._tiles.values()) if len(t.nodes) > 2]
 
     @property
     def edges(self) -> list[EdgeSpan]:
@@ -174,7 +155,7 @@ class Tracker(Observer):
         for tile in before.values():
             self._leave(tile, step)
 
-    def _enter(self, name: int, cycle: list[int], before: _Tile | None, step: int) -> None:
+    def _enter(self, name: int, cycle: list[int], before: TileSpan | None, step: int) -> None:
         mesh = self._kinetic.mesh_after()
         m = mesh.map
         around = [self._node[m.origin[h]] for h in cycle]
@@ -189,11 +170,11 @@ class Tracker(Observer):
                 return
             self._leave(before, step)
         tint = before.tint if before is not None else self._new_tint(name, cycle)
-        self._tiles[name] = _Tile(tuple(nodes), corners, tint, inside, place, step)
+        self._tiles[name] = TileSpan(tuple(nodes), corners, tint, inside, place, step, None)
 
-    def _leave(self, tile: _Tile, step: int) -> None:
-        if tile.since < step:
-            self._gone_tiles.append(tile.span(step))
+    def _leave(self, tile: TileSpan, step: int) -> None:
+        if tile.first < step:
+            self._gone_tiles.append(tile._replace(last=step))
 
     def _new_tint(self, name: int, cycle: list[int]) -> int:
         """Return a tint that no neighbouring tile has, if there is one."""

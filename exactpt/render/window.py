@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias, final
 
@@ -52,6 +52,11 @@ def arrow(tail: Pixel, direction: Pixel) -> tuple[Pixel, Pixel, Pixel, Pixel]:
         (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx) for side in (1, -1)
     )
     return (x + 11 * dx, y + 11 * dy), tip, left, right
+
+
+def widened(points: Iterable[tuple[QQ, QQ]], radius: QQ) -> Iterator[tuple[QQ, QQ]]:
+    """Yield opposite corners of the boxes around the discs with a radius; or the points for 0."""
+    return ((x + r, y + r) for x, y in points for r in ((radius, -radius) if radius else (radius,)))
 
 
 def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:

@@ -10,7 +10,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import cells, is_simple
+from exactpt.scene.families.shapes import cells, is_simple, points_near, simple_scene
 from exactpt.scene.scene import Scene
 
 RADIUS: Final = 2
@@ -30,12 +30,14 @@ def _body(rng: Random, name: str, center: Point) -> Body:
     for _ in range(ATTEMPTS):
         kind = rng.randrange(5)
         if kind == 0:
-            frames = [(t, _ring(rng, center, size)) for t in (0, 1, 2)]
+            frames = [(t, points_near(rng, center, RADIUS, size)) for t in (0, 1, 2)]
             body = Body(name, keyframes=frames, closed=closed)
         elif kind == 1:
-            body = Body(name, _paths(rng, _ring(rng, center, size)), closed=closed)
+            body = Body(name, _paths(rng, points_near(rng, center, RADIUS, size)), closed=closed)
         else:
-            body = Body(name, _ring(rng, center, size), _motion(rng, center), closed=closed)
+            body = Body(
+                name, points_near(rng, center, RADIUS, size), _motion(rng, center), closed=closed
+            )
         if is_simple(body):
             return body
     return Body(name, [center])
@@ -45,7 +47,7 @@ def chains_on_grid(rng: Random) -> Scene:
     """Open chains whose end edges point at each other's vertices; they move, turn, deform."""
     bodies = []
     for i, center in enumerate(cells(rng, rng.randint(2, 4), 4)):
-        ring = _ring(rng, center, rng.choice([1, 2, 3, 3, 3, 4, 5]))
+        ring = points_near(rng, center, RADIUS, rng.choice([1, 2, 3, 3, 3, 4, 5]))
         closed = rng.random() < 0.3
         kind = rng.randrange(6)
         if kind < 3:
@@ -55,16 +57,8 @@ def chains_on_grid(rng: Random) -> Scene:
             body = Body(f"b{i}", ring, turn, closed=closed)
         else:
             body = Body(f"b{i}", ring, Translation(_path(rng, 1), _path(rng, 1)), closed=closed)
-        if is_simple(body):
-            bodies.append(body)
-    return Scene(bodies, (0, rng.choice([1, 2, 4])))
-
-
-def _ring(rng: Random, center: Point, size: int) -> list[Point]:
-    return [
-        (center[0] + rng.randint(-RADIUS, RADIUS), center[1] + rng.randint(-RADIUS, RADIUS))
-        for _ in range(size)
-    ]
+        bodies.append(body)
+    return simple_scene(bodies, (0, rng.choice([1, 2, 4])))
 
 
 def _paths(rng: Random, ring: list[Point]) -> list[tuple[Polynomial, Polynomial]]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
 
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Rigid, SimpleMotion, Translation
+from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
 from exactpt.scene.families.shapes import poly, velocity
 from exactpt.scene.scene import Scene
 
 
-def _points(positions: list[tuple[QQ | int, QQ | int]], motions: list[SimpleMotion]) -> list[Body]:
+def _points(positions: list[tuple[QQ | int, QQ | int]], motions: Sequence[Motion]) -> list[Body]:
     return [
         Body(f"p{i}", [p], motion)
         for i, (p, motion) in enumerate(zip(positions, motions, strict=True))
@@ -44,7 +45,7 @@ def ballistic_points(rng: Random) -> Scene:
 def piecewise_points(rng: Random) -> Scene:
     """Linear motions with one change of velocity, often simultaneous."""
     n = rng.randint(2, 10)
-    motions: list[Pieces] = []
+    motions: list[Motion] = []
     for _ in range(n):
         until = QQ(rng.choice([1, 1, rng.randint(1, 7)]), 2)
         a, b, c, d = (rng.randint(-500, 500) for _ in range(4))
@@ -56,11 +57,7 @@ def piecewise_points(rng: Random) -> Scene:
                 ]
             )
         )
-    bodies = [
-        Body(f"p{i}", [p], motion)
-        for i, (p, motion) in enumerate(zip(_distinct(rng, n, 1000), motions, strict=True))
-    ]
-    return Scene(bodies, (0, 3))
+    return Scene(_points(_distinct(rng, n, 1000), motions), (0, 3))
 
 
 def turning_points(rng: Random) -> Scene:

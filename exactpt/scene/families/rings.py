@@ -16,9 +16,9 @@ from exactpt.scene.families.shapes import (
     cells,
     convex_polygon,
     hull,
-    is_simple,
     poly,
     shape,
+    simple_scene,
     velocity,
 )
 from exactpt.scene.families.simple import star
@@ -141,8 +141,7 @@ def walls(rng: Random) -> Scene:
             bodies.append(_moved(rng, name, [outline], c))
         else:
             bodies.append(Body(name, outline, velocity(rng, 3)))
-    simple = [b for b in bodies if is_simple(b)]
-    return Scene(simple, (0, rng.choice([1, 4])))
+    return simple_scene(bodies, (0, rng.choice([1, 4])))
 
 
 def _toothed(rng: Random, a: Point, b: Point, gap: int) -> list[Point]:

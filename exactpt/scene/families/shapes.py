@@ -21,13 +21,15 @@ def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[P
     It is the hull of random integer points in the square of half-width ``radius``.
     """
     while True:
-        points = [
-            (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
-            for _ in range(size)
-        ]
-        chain = hull(points)
+        chain = hull(points_near(rng, center, radius, size))
         if len(chain) > 2:
             return chain
+
+
+def points_near(rng: Random, center: Point, radius: int, count: int) -> list[Point]:
+    """Random integer points, seen from a center, in the square of half-width ``radius``."""
+    (x, y), r = center, radius
+    return [(x + rng.randint(-r, r), y + rng.randint(-r, r)) for _ in range(count)]
 
 
 def hull(points: Sequence[Point]) -> list[Point]:
@@ -65,15 +67,10 @@ def shape(rng: Random, center: Point, radius: int) -> list[Point]:
     """A polygon, or sometimes a segment or a point."""
     kind = rng.randrange(8)
     if kind == 0:
-        return [
-            (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
-        ]
+        return points_near(rng, center, radius, 1)
     if kind == 1:
         while True:
-            a, b = (
-                (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
-                for _ in range(2)
-            )
+            a, b = points_near(rng, center, radius, 2)
             if a != b:
                 return [a, b]
     return convex_polygon(rng, center, radius, rng.randint(3, 9))
@@ -92,6 +89,11 @@ def is_simple(body: Body) -> bool:
     except InputError:
         return False
     return True
+
+
+def simple_scene(bodies: Sequence[Body], time: tuple[int, int]) -> Scene:
+    """The scene of those bodies that are simple."""
+    return Scene([body for body in bodies if is_simple(body)], time)
 
 
 def in_cells(

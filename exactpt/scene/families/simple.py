@@ -9,7 +9,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, is_simple, poly, shape, velocity
+from exactpt.scene.families.shapes import box, cells, poly, shape, simple_scene, velocity
 from exactpt.scene.scene import Scene
 
 # Directions around a circle in order, exact and of about equal length.
@@ -35,8 +35,8 @@ def stars(rng: Random) -> Scene:
     bodies = []
     for i, c in enumerate(cells(rng, k, 100)):
         outline = star(rng, c, 48, rng.randint(4, 16)) if rng.random() < 0.7 else shape(rng, c, 40)
-        bodies.append(_body(f"b{i}", outline, velocity(rng, 50)))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2, 4])))
+        bodies.append(Body(f"b{i}", outline, velocity(rng, 50)))
+    return simple_scene(bodies, (0, rng.choice([1, 2, 4])))
 
 
 def turning_stars(rng: Random) -> Scene:
@@ -47,8 +47,8 @@ def turning_stars(rng: Random) -> Scene:
         move = velocity(rng, 30)
         turn = poly(rng.randint(-1, 1), QQ(rng.randint(-4, 4), 4))
         motion: Motion = Rigid(turn, pivot=c, x=move.x, y=move.y) if i % 3 else move
-        bodies.append(_body(f"b{i}", star(rng, c, 48, rng.randint(4, 10)), motion))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
+        bodies.append(Body(f"b{i}", star(rng, c, 48, rng.randint(4, 10)), motion))
+    return simple_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def blobs(rng: Random) -> Scene:
@@ -65,8 +65,8 @@ def blobs(rng: Random) -> Scene:
             )
             for x, y in outline
         ]
-        bodies.append(_body(f"b{i}", vertices, Translation()))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
+        bodies.append(Body(f"b{i}", vertices, Translation()))
+    return simple_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def chains(rng: Random) -> Scene:
@@ -76,36 +76,24 @@ def chains(rng: Random) -> Scene:
     for i, c in enumerate(cells(rng, k, 100)):
         move = velocity(rng, 40)
         if rng.random() < 0.3:
-            bodies.append(_body(f"b{i}", shape(rng, c, 40), move))
+            bodies.append(Body(f"b{i}", shape(rng, c, 40), move))
             continue
         line = star(rng, c, 45, rng.randint(4, 9))
         if rng.random() < 0.3:  # an angle of pi at one vertex
             line.insert(1, ((line[0][0] + line[1][0]) / 2, (line[0][1] + line[1][1]) / 2))
         kind = rng.randrange(3)
         if kind == 0:
-            bodies.append(_body(f"b{i}", line, move, closed=False))
+            bodies.append(Body(f"b{i}", line, move, closed=False))
         elif kind == 1:
             turn = Rigid(poly(0, QQ(rng.randint(-3, 3), 4)), pivot=c, x=move.x, y=move.y)
-            bodies.append(_body(f"b{i}", line, turn, closed=False))
+            bodies.append(Body(f"b{i}", line, turn, closed=False))
         else:
             paths = [
                 (Polynomial([x, rng.randint(-8, 8)]), Polynomial([y, rng.randint(-8, 8)]))
                 for x, y in line
             ]
-            bodies.append(_body(f"b{i}", paths, move, closed=False))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
-
-
-def _body(
-    name: str,
-    vertices: list[Point] | list[tuple[Polynomial, Polynomial]],
-    motion: Motion,
-    *,
-    closed: bool = True,
-) -> Body | None:
-    """A body, or None if the random polygon or chain is not simple at t = 0."""
-    body = Body(name, vertices, motion, closed=closed)
-    return body if is_simple(body) else None
+            bodies.append(Body(f"b{i}", paths, move, closed=False))
+    return simple_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def combs(rng: Random) -> Scene:
@@ -127,8 +115,8 @@ def combs(rng: Random) -> Scene:
         [0, rng.choice([QQ(-1), QQ(0), QQ(0), QQ(1, 8)])],
         [0, rng.choice([QQ(-1, 3), QQ(0), QQ(1, 3), QQ(2)])],
     )
-    bodies = [_body("lower", lower, Translation()), _body("upper", upper, motion)]
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([2, 5])))
+    bodies = [Body("lower", lower, Translation()), Body("upper", upper, motion)]
+    return simple_scene(bodies, (0, rng.choice([2, 5])))
 
 
 def spirals(rng: Random) -> Scene:
@@ -147,8 +135,8 @@ def spirals(rng: Random) -> Scene:
     points = _thicken(outer, QQ(1, 2))
     other = [(-a + 2, -b + 2) for a, b in points]
     motion = Translation([0, QQ(rng.randint(-2, 2), 4)], [0, QQ(rng.randint(-2, 2), 4)])
-    bodies = [_body("still", points, Translation()), _body("moving", other, motion)]
-    return Scene([b for b in bodies if b is not None], (0, 8))
+    bodies = [Body("still", points, Translation()), Body("moving", other, motion)]
+    return simple_scene(bodies, (0, 8))
 
 
 def _thicken(path: list[Point], half: QQ) -> list[Point]:
@@ -195,10 +183,10 @@ def clamps(rng: Random) -> Scene:
         (end, Polynomial([700, -20])),
         (back, Polynomial([700, -20])),
     ]
-    bodies = [_body("jaw", outline, Translation())]
+    bodies = [Body("jaw", outline, Translation())]
     if rng.random() < 0.5:
         bodies.append(Body("prey", shape(rng, (QQ(300), QQ(190)), 40), velocity(rng, 15)))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([2, 6])))
+    return simple_scene(bodies, (0, rng.choice([2, 6])))
 
 
 _LETTERS = {
@@ -270,7 +258,5 @@ def nested(rng: Random) -> Scene:
             outline = [(-x, -y) for x, y in outline]
         if rng.random() < 0.5:
             outline = [(-y, x) for x, y in outline]
-        body = _body(f"ring{i}", outline, velocity(rng, 1))
-        if body is not None:
-            bodies.append(body)
-    return Scene(bodies, (0, rng.choice([1, 8])))
+        bodies.append(Body(f"ring{i}", outline, velocity(rng, 1)))
+    return simple_scene(bodies, (0, rng.choice([1, 8])))

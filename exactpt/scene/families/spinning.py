@@ -10,6 +10,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.spin import Spin
+from exactpt.scene.families.shapes import box
 from exactpt.scene.scene import Scene
 
 ERRORS = ["1/50", "1/1000", "1/1000", "1e-6", "1e-9"]
@@ -48,7 +49,7 @@ def mills(rng: Random) -> Scene:
                 Body("mill", [(-arm, 0), (arm, 0)], spin),
                 Body("mill", [(arm, 0), (0, 0), (0, arm)], spin, closed=False),
                 Body("mill", _cross(arm, QQ(1, 4)), spin),
-                Body("mill", _box(-arm, QQ(-1, 4), 2 * arm, QQ(1, 2)), spin),
+                Body("mill", box(-arm, QQ(-1, 4), 2 * arm, QQ(1, 2)), spin),
                 Body("mill", [(0, 0), (arm, 0)], spin, radius=QQ(1, 4)),
                 Body("mill", [(-1, 0), {"x": [arm, "1/4"], "y": [0]}, (0, "1/2")], spin),
             ]
@@ -60,7 +61,7 @@ def mills(rng: Random) -> Scene:
         fly = Translation([0, _number(rng, -2, 2)], [0, _number(rng, -2, 2)])
         flying = rng.choice([fly, fly, Translation()])
         size = QQ(rng.randint(1, 4), 4)
-        shape = rng.choice([[(x, y)], [(x, y), (x + size, y + size / 3)], _box(x, y, size, size)])
+        shape = rng.choice([[(x, y)], [(x, y), (x + size, y + size / 3)], box(x, y, size, size)])
         bodies.append(Body(f"b{i}", shape, flying, radius=QQ(rng.choice([0, 0, 1]), 5)))
     return Scene(bodies, (0, end))
 
@@ -86,7 +87,7 @@ def orbits(rng: Random) -> Scene:
         radius = size * QQ(quarters, 4)
         bodies.append(Body(f"b{i}", shape, spin, radius=radius))
     if rng.random() < 0.3:
-        bodies.append(Body("hub", _box(QQ(-1, 2), QQ(-1, 2), QQ(1), QQ(1))))
+        bodies.append(Body("hub", box(QQ(-1, 2), QQ(-1, 2), QQ(1), QQ(1))))
     return Scene(bodies, (0, end))
 
 
@@ -110,10 +111,6 @@ def _gear(center: Point, pitch: QQ, height: QQ, teeth: int, phase: QQ) -> list[P
         x, y = _place(float(r), angle)
         ring.append((center[0] + x, center[1] + y))
     return ring
-
-
-def _box(x: QQ, y: QQ, w: QQ, h: QQ) -> list[Point]:
-    return [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
 
 
 def _cross(arm: QQ, half: QQ) -> list[Point]:
