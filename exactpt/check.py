@@ -19,6 +19,7 @@ from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.driver import EVENTS, Driver, Observer
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.budget import deadline_in
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.proof.emit import ProofRun, scene_bytes
@@ -112,7 +113,7 @@ def check_scene(
         InputError: if the program cgal_check is missing.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+    deadline = deadline_in(max_seconds)
     name = plan_tiling(scene, tiling, scene._start).name
     file = scene_bytes(scene) if scene_file is None else scene_file
     proof = ProofRun(scene, tiling=name, scene_file=file, max_events=max_events)
@@ -149,7 +150,7 @@ def check_run(
     """
     plan = plan_tiling(scene, tiling, scene._start)
     report = Report(plan.name)
-    deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+    deadline = deadline_in(max_seconds)
     with CgalCheck() as cgal:
         witness = _Witness(scene, cgal, report, max_events, deadline, reached)
         driver = Driver(scene, observers=[witness])

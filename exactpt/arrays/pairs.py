@@ -11,10 +11,10 @@ from exactpt.arrays.blocks import Block
 from exactpt.arrays.contacts import Contacts, Errors, masks
 from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
-from exactpt.arrays.spans import exact, read_spans
+from exactpt.arrays.spans import read_spans
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, finite_rows, first_true, indices
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, of_double
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene, scene_of
 from exactpt.scene.simple import check_simple
@@ -106,7 +106,7 @@ def first_contacts(
 
     def scene(k: int) -> Scene:
         i, j = ij[k].tolist()
-        start, end = (exact(float(s[k])) for s in (spans.start, spans.end))
+        start, end = (of_double(float(s[k])) for s in (spans.start, spans.end))
         return scene_of((bodies.make(i), bodies.make(j)), start, end)
 
     contacts = Contacts(len(ij), scene)

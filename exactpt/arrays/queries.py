@@ -13,13 +13,13 @@ from exactpt.arrays.contacts import Contacts, Errors, masks
 from exactpt.arrays.incidence_times import INFINITY, Span, first_incidences
 from exactpt.arrays.relative import Relative, orientations
 from exactpt.arrays.sharpening import ExactRelative, sharpened
-from exactpt.arrays.spans import Spans, exact, read_spans
+from exactpt.arrays.spans import Spans, read_spans
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices, doubles, finite_rows
-from exactpt.kernel.numbers import QQ, show
+from exactpt.kernel.numbers import QQ, of_double, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, coincide, lies_on
@@ -208,14 +208,14 @@ def _may_shrink(r: Relative, span: Span) -> Flags:
 
 def _points(row: Floats) -> list[tuple[tuple[QQ, QQ], tuple[QQ, QQ]]]:
     """Return the coefficients in x and in y of the point and of the segment's ends."""
-    q = [exact(c) for c in row.tolist()]
+    q = [of_double(c) for c in row.tolist()]
     return [((q[k], q[k + 6]), (q[k + 1], q[k + 7])) for k in (0, 2, 4)]
 
 
 def _decide(contacts: Contacts, i: int, row: Floats, spans: Spans) -> None:
     """Decide one query exactly: when the point is on the segment, or on it shrunken to a point."""
     p, a, b = (translated(x, y) for x, y in _points(row))
-    start, end = (exact(float(s[i])) for s in (spans.start, spans.end))
+    start, end = (of_double(float(s[i])) for s in (spans.start, spans.end))
     begin = AlgebraicNumber(start)
     if coincide(a, b, begin):
         raise InputError(f"query {i}: the segment is a point at the start, t = {show(start)}")

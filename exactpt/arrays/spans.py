@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike
 from exactpt.arrays.incidence_times import Span
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true
-from exactpt.kernel.numbers import QQ
 
 
 class Spans(NamedTuple):
@@ -45,11 +44,6 @@ class Spans(NamedTuple):
             lows = np.nextafter(self.start + low, -np.inf)
             highs = np.nextafter(self.start + high, np.inf)
         return np.where(low < np.inf, lows, np.inf), np.where(high < np.inf, highs, np.inf)
-
-
-def exact(x: float) -> QQ:
-    """Return the value of a double."""
-    return QQ(*x.as_integer_ratio())
 
 
 def read_spans(time: ArrayLike, count: int) -> Spans:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Final, final
@@ -10,7 +9,7 @@ from typing import Final, final
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
-from exactpt.kernel.budget import within
+from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.pairs.approach import first_within
 from exactpt.pairs.intervals import contacts
@@ -103,8 +102,7 @@ class Options:
 
     def budget(self) -> AbstractContextManager[None]:
         """Return the context of the query about one scene."""
-        most = self.max_seconds
-        return within(None if most is None else clock.monotonic() + most, self.max_memory)
+        return bounded(self.max_seconds, self.max_memory)
 
     def answer(self, scene: Scene) -> dict[str, object]:
         """Return the result of a scene as JSON, see docs/format.md.

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-import time as clock
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
 from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError, carrying
-from exactpt.kernel.budget import check_bounds, within
+from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene, a_scene
@@ -72,7 +70,7 @@ def first_contact(
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     a_scene(scene)
-    with _budget(max_seconds, max_memory), carrying(lambda: scene):
+    with bounded(max_seconds, max_memory), carrying(lambda: scene):
         groups = ignoring if isinstance(ignoring, str) else list(ignoring)
         given = scene
         if since is not None:
@@ -89,18 +87,3 @@ def first_contact(
             given=given,
         )
         return search_for(scene, question).run_to_contact()
-
-
-def _budget(
-    max_seconds: float | None, max_memory: int | None
-) -> contextlib.AbstractContextManager[None]:
-    """Return a context in which the time and memory are bounded.
-
-    Raises:
-        InputError: if a bound is not a number >= 0.
-    """
-    if max_seconds is None and max_memory is None:
-        return contextlib.nullcontext()
-    check_bounds(max_seconds=max_seconds, max_memory=max_memory)
-    deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-    return within(deadline, max_memory)

@@ -40,6 +40,11 @@ def orientation(a: Point, b: Point, c: Point) -> int:
     return sign(orient2d(a, b, c))
 
 
+def in_triangle(p: Point, a: Point, b: Point, c: Point) -> bool:
+    """Return True if p is in the closed triangle abc, which is counter-clockwise."""
+    return orientation(a, b, p) >= 0 and orientation(b, c, p) >= 0 and orientation(c, a, p) >= 0
+
+
 def between(a: Point, b: Point, c: Point) -> bool:
     """Return True if c lies in the closed segment ab, if it is on the line ab (or if a = b)."""
     return all(min(u, v) <= w <= max(u, v) for u, v, w in zip(a, b, c, strict=True))

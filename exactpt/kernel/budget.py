@@ -108,6 +108,25 @@ def searching(
 _UNLIMITED: Final = contextlib.nullcontext()
 
 
+def deadline_in(seconds: float | None) -> float | None:
+    """Return the time of ``time.monotonic`` after some seconds from now; None for None."""
+    return None if seconds is None else clock.monotonic() + seconds
+
+
+def bounded(
+    max_seconds: float | None, max_memory: int | None
+) -> contextlib.AbstractContextManager[None]:
+    """Return a context in which the time, from now on, and the memory are bounded.
+
+    Raises:
+        InputError: if a bound is not a number >= 0.
+    """
+    if max_seconds is None and max_memory is None:
+        return _UNLIMITED
+    check_bounds(max_seconds=max_seconds, max_memory=max_memory)
+    return within(deadline_in(max_seconds), max_memory)
+
+
 @final
 class Budget:
     """The remaining bounds of a run.
@@ -126,7 +145,7 @@ class Budget:
     ) -> None:
         check_bounds(max_events=events, max_seconds=seconds, max_memory=memory)
         self._events = events
-        self._deadline = None if seconds is None else clock.monotonic() + seconds
+        self._deadline = deadline_in(seconds)
         self._memory = memory
 
     @property

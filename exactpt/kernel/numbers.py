@@ -162,6 +162,11 @@ def show(*numbers: QQ) -> str:
     return words[0] if len(words) == 1 else f"({', '.join(words)})"
 
 
+def of_double(x: float) -> QQ:
+    """Return the value of a finite double."""
+    return QQ(*x.as_integer_ratio())
+
+
 def rational(value: Rational) -> QQ:
     """Return the exact rational that ``value`` denotes.
 
@@ -180,7 +185,7 @@ def rational(value: Rational) -> QQ:
     if isinstance(value, float):  # numpy.float64 too
         if not math.isfinite(value):
             raise InputError(f"not a finite number: {value!r}")
-        return QQ(*value.as_integer_ratio())
+        return of_double(value)
     if isinstance(value, Decimal):  # as text, which bounds the exponent
         return parse_rational(str(value))
     if type(value).__name__ in _INEXACT:

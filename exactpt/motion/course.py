@@ -10,7 +10,7 @@ from typing import final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, nearest_float, show
+from exactpt.kernel.numbers import QQ, nearest_float, of_double, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
@@ -74,7 +74,7 @@ class Piece:
             return self.track(vertex)._at(t)
         places, translation = moved
         dx, dy = translation._at(t)
-        return _exact(places.xs[vertex]) + dx, _exact(places.ys[vertex]) + dy
+        return of_double(places.xs[vertex]) + dx, of_double(places.ys[vertex]) + dy
 
     def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """Return the positions of all vertices at a rational time of the piece."""
@@ -83,7 +83,7 @@ class Piece:
             return [track._at(t) for track in self.tracks]
         (xs, ys, _), translation = moved
         dx, dy = translation._at(t)
-        return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(xs, ys, strict=True)]
+        return [(of_double(x) + dx, of_double(y) + dy) for x, y in zip(xs, ys, strict=True)]
 
     def straight_x(self, vertex: int) -> tuple[QQ, QQ] | None:
         """Return the coefficients of x = x0 + x1 t of a vertex, without its trajectory.
@@ -97,7 +97,7 @@ class Piece:
         path = translation.x._coefficients
         if len(path) > 2:
             return None
-        x = _exact(places.xs[vertex])
+        x = of_double(places.xs[vertex])
         return (x + path[0] if path else x), (path[1] if len(path) == 2 else QQ(0))
 
     def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
@@ -107,7 +107,7 @@ class Piece:
             return self.positions(t)
         (xs, ys, _), translation = moved
         dx, dy = translation._at(t)
-        return [(_exact(of(xs)) + dx, _exact(of(ys)) + dy) for of in (min, max)]
+        return [(of_double(of(xs)) + dx, of_double(of(ys)) + dy) for of in (min, max)]
 
 
 @final
@@ -173,10 +173,6 @@ def jump(t: QQ, a: tuple[QQ, QQ], b: tuple[QQ, QQ]) -> str:
     size = math.hypot(nearest_float(b[0] - a[0]), nearest_float(b[1] - a[1]))
     places = [f"({nearest_float(x):.9g}, {nearest_float(y):.9g})" for x, y in (a, b)]
     return f"jumps at t = {show(t)} from {places[0]} to {places[1]}, by {size:.3g}"
-
-
-def _exact(x: float) -> QQ:
-    return QQ(*x.as_integer_ratio())
 
 
 def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tuple[QQ, QQ]]:

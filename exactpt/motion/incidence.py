@@ -52,6 +52,16 @@ def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
     return subtract(multiply(q, pw), multiply(p, qw))
 
 
+def vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
+    """Return the vector from a to b, times a positive factor."""
+    return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+
+
+def dot(u: tuple[IntPoly, IntPoly], v: tuple[IntPoly, IntPoly]) -> IntPoly:
+    """Return the scalar product of two vectors."""
+    return add(multiply(u[0], v[0]), multiply(u[1], v[1]))
+
+
 def orientation_polynomial(a: Track, b: Track, c: Track) -> IntPoly:
     """Return a positive multiple of the orientation of three trajectories.
 
@@ -78,7 +88,6 @@ def lies_on(v: Track, a: Track, b: Track, t: AlgebraicNumber) -> bool:
     """Return True if v is in the closed segment ab: on its line, and (a - v) . (b - v) <= 0."""
     if t.sign_of(orientation_polynomial(a, b, v)) != 0:
         return False
-    along_x = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))
-    along_y = multiply(difference(v.y, v.w, a.y, a.w), difference(v.y, v.w, b.y, b.w))
+    along = dot(vector(v, a), vector(v, b))
     # Both products have the denominator w(v)^2 w(a) w(b).
-    return t.sign_of(add(along_x, along_y)) <= 0
+    return t.sign_of(along) <= 0

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
 import numpy as np
 
-from exactpt.geometry.ragged import Flags, spread
+from exactpt.geometry.ragged import spread
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.double_double import exact_sum
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization, normalization_for
@@ -23,6 +24,7 @@ from exactpt.motion.ring_order import turns_left
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
+    from exactpt.scene.body_arrays import BodyArrays
 
 LEAST: Final = 2.0**-19
 """Least extent of a scene that certainly needs no scale, see `exactpt.motion.normalization`."""
@@ -68,28 +70,17 @@ class _Given(NamedTuple):
     velocities: Floats
 
 
-class _Arrays(Sequence["Body"]):
-    """What `exactpt.scene.body_arrays.BodyArrays` has."""
-
-    vertices: Floats
-    offsets: Indices
-    coefficients: Floats
-    closed: Flags
-    radii: Floats
-
-
 @np.errstate(all="ignore")
 def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None:
     """Return the rows of bodies from a time on; None unless all are linear polygons."""
-    given = _from_arrays(cast("_Arrays", bodies)) if hasattr(bodies, "offsets") else _read(bodies)
+    is_arrays = hasattr(bodies, "offsets")
+    given = _from_arrays(cast("BodyArrays", bodies)) if is_arrays else _read(bodies)
     if given is None or not len(bodies):
         return None
     counts = np.diff(given.offsets)
     owner, number = spread(counts)
     shifts = given.shifts[owner]
-    places = given.vertices + shifts
-    of_shift = places - given.vertices
-    lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
+    places, lost = exact_sum(given.vertices, shifts)
     moves = given.velocities[owner] * nearest_float(start)
     near = places + moves
     # Each of the two terms errs by at most 2 U of its size, their sum by U of that of both.
@@ -124,7 +115,7 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     )
 
 
-def _from_arrays(bodies: _Arrays) -> _Given | None:
+def _from_arrays(bodies: BodyArrays) -> _Given | None:
     given = bodies.coefficients
     if (
         not bodies.closed.all()
@@ -180,8 +171,7 @@ def _normalization(near: Floats, start: QQ, end: QQ, blur: float) -> Normalizati
     if not blur:
         least = near[np.abs(near).argmin(axis=0), (0, 1)]
         points = [
-            (QQ(*x.as_integer_ratio()), QQ(*y.as_integer_ratio()))
-            for x, y in (low.tolist(), high.tolist(), least.tolist())
+            (of_double(x), of_double(y)) for x, y in (low.tolist(), high.tolist(), least.tolist())
         ]
     elif (
         (extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent) & (blur <= BLUR * extent)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract
+from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, difference, orientation_polynomial
+from exactpt.motion.incidence import Touch, difference, dot, orientation_polynomial, vector
 from exactpt.motion.track import Track
 
 
@@ -28,7 +28,7 @@ def exterior_side(
     """
     v, other = pieces[touch.body].track(touch.vertex), pieces[touch.other]
     tracks = {i for edge in body.edges for i in edge}
-    along = _vector(*(other.track(i) for i in body.edges[touch.edge]))
+    along = vector(*(other.track(i) for i in body.edges[touch.edge]))
     slope, height = time.sign_of(along[0]), time.sign_of(along[1])
     above: dict[int, tuple[bool, bool]] = {}
     for i in tracks:
@@ -45,11 +45,6 @@ def exterior_side(
     return left - right
 
 
-def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
-    """Return a positive multiple of b - a."""
-    return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-
-
 def _sides(
     c: Track, d: Track, v: Track, along: tuple[IntPoly, IntPoly], time: AlgebraicNumber
 ) -> tuple[int, int]:
@@ -57,9 +52,9 @@ def _sides(
     sign = time.sign_of(orientation_polynomial(c, d, v))
     if sign:
         return sign, sign
-    (x, y), (ux, uy) = _vector(c, d), along
-    sign = time.sign_of(subtract(multiply(x, uy), multiply(y, ux)))
+    edge = vector(c, d)
+    sign = time.sign_of(subtract(multiply(edge[0], along[1]), multiply(edge[1], along[0])))
     if sign:
         return sign, sign
-    sign = time.sign_of(add(multiply(x, ux), multiply(y, uy)))
+    sign = time.sign_of(dot(edge, along))
     return sign, -sign

@@ -19,7 +19,6 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
-    add,
     greatest_common_divisor,
     multiply,
     scale,
@@ -28,7 +27,7 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, difference, orientation_polynomial, vertex_touch
+from exactpt.motion.incidence import Touch, dot, orientation_polynomial, vector, vertex_touch
 from exactpt.motion.track import Track
 
 
@@ -77,7 +76,7 @@ class FeaturePair:
         v, end = self.v, self.ends[0]
         if not self.is_of_edge:
             w = multiply(end.w, v.w)
-            return _squared_length(_vector(end, v)), multiply(w, w)
+            return _squared_length(vector(end, v)), multiply(w, w)
         d = self.at_distance(QQ(0))
         return multiply(d, d), multiply(multiply(v.w, v.w), _squared_length(self._along))
 
@@ -93,16 +92,16 @@ class FeaturePair:
 
     @cached_property
     def _from_first(self) -> IntPoly:
-        return _dot(self._along, _vector(self.ends[0], self.v))
+        return dot(self._along, vector(self.ends[0], self.v))
 
     @cached_property
     def _from_last(self) -> IntPoly:
-        return _dot(self._along, _vector(self.v, self.ends[1]))
+        return dot(self._along, vector(self.v, self.ends[1]))
 
     @cached_property
     def _along(self) -> tuple[IntPoly, IntPoly]:
         """The vector of the edge, times a positive factor."""
-        return _vector(*self.ends)
+        return vector(*self.ends)
 
     def at_distance(self, squared: QQ) -> IntPoly:
         """Return a polynomial that is positive where the squared distance is larger, 0 where equal.
@@ -116,7 +115,7 @@ class FeaturePair:
         if self.is_of_edge:
             a, b = self.ends
             return orientation_polynomial(a, b, self.v)
-        dx, dy = _vector(self.v, self.ends[0])
+        dx, dy = vector(self.v, self.ends[0])
         if len(dx) == len(dy) == 2 and dx[0] * dy[1] != dx[1] * dy[0]:
             return (ZZ(1),)
         return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
@@ -203,14 +202,5 @@ def feature_pairs(
             yield FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
 
 
-def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
-    """Return the vector from a to b, times a positive factor."""
-    return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-
-
-def _dot(u: tuple[IntPoly, IntPoly], v: tuple[IntPoly, IntPoly]) -> IntPoly:
-    return add(multiply(u[0], v[0]), multiply(u[1], v[1]))
-
-
 def _squared_length(u: tuple[IntPoly, IntPoly]) -> IntPoly:
-    return _dot(u, u)
+    return dot(u, u)

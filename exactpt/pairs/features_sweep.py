@@ -29,7 +29,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import check_budget, searching
+from exactpt.kernel.budget import check_budget, deadline_in, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction
@@ -79,7 +79,7 @@ class PairsSearch:
     ) -> None:
         self._scene = scene
         self._exact_only = exact_only
-        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._deadline = deadline_in(max_seconds)
         self._counters = Counters()
         self._group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
         has_radius = [body._radius > 0 for body in scene.bodies]

@@ -13,7 +13,7 @@ from exactpt.kernel.numbers import QQ, ZZ, finite
 from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, difference, orientation_polynomial
+from exactpt.motion.incidence import Touch, orientation_polynomial, vector
 from exactpt.motion.outline import is_rigid
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
@@ -188,7 +188,7 @@ def _normal(
     outward: int, v: Track, a: Track, b: Track, time: AlgebraicNumber
 ) -> tuple[float, float]:
     w = multiply(a.w, b.w)
-    dx, dy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+    dx, dy = vector(a, b)
     # The unit vector does not depend on the scale; at this scale no double under- or overflows.
     size = max(exponent(f, w, time) for f in (dx, dy))
     grown, shrunk = ZZ(1) << max(0, -size), ZZ(1) << max(0, size)

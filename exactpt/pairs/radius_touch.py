@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.incidence import difference
+from exactpt.motion.incidence import dot, vector
 from exactpt.motion.track import Track
 
 
@@ -39,7 +39,7 @@ def touch_point(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ)
     """Return the point where a vertex touches a vertex, or the edge between two, by the radii."""
     foot = ends[0] if len(ends) == 1 else _foot(v, *ends)
     reach = radius + other_radius
-    dx, dy = difference(foot.x, foot.w, v.x, v.w), difference(foot.y, foot.w, v.y, v.w)
+    dx, dy = vector(foot, v)
     w = multiply(foot.w, v.w)
     share = other_radius / reach
     of_foot, of_v = ZZ(share.denominator), ZZ(share.numerator)
@@ -54,9 +54,10 @@ def touch_point(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ)
 
 def _foot(v: Track, a: Track, b: Track) -> Track:
     """Return the foot of the perpendicular from v on the line ab; w is 0 if a = b."""
-    ex, ey = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-    gx, gy = difference(a.x, a.w, v.x, v.w), difference(a.y, a.w, v.y, v.w)
-    along = add(multiply(ex, gx), multiply(ey, gy))
-    length = multiply(add(multiply(ex, ex), multiply(ey, ey)), v.w)
-    x, y = (add(multiply(at, length), multiply(e, along)) for at, e in ((a.x, ex), (a.y, ey)))
+    edge = vector(a, b)
+    along, length = dot(edge, vector(a, v)), multiply(dot(edge, edge), v.w)
+    x, y = (
+        add(multiply(at, length), multiply(e, along))
+        for at, e in zip((a.x, a.y), edge, strict=True)
+    )
     return Track(x, y, multiply(a.w, length), None)

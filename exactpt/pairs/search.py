@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import check_budget, searching
+from exactpt.kernel.budget import check_budget, deadline_in, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.incidence import Touch, renumbered
@@ -66,7 +66,7 @@ class LinearSearch:
             from exactpt.pairs.selection import groups_of
 
             self._group = groups_of(scene, ignoring)
-        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._deadline = deadline_in(max_seconds)
         self._search = _Search(contact_distance, self._deadline)
         self._is_apart = False  # whether it is known that no two bodies touch at the start
 

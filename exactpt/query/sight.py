@@ -18,7 +18,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
-from exactpt.geometry.predicates import Point, between, orientation
+from exactpt.geometry.predicates import Point, between, in_triangle, orientation
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.query.sleeve import Sleeves, Triangle
 from exactpt.query.subdivision import OUTSIDE, Subdivision
@@ -101,14 +101,9 @@ class FreeTriangles:
     def _holding(self, triangles: Sequence[Triangle], p: Point) -> Triangle:
         """Return the triangle, of those that still exist, that contains a point."""
         for a, b, c in triangles:
-            if self._apex.get((a, b)) == c:
-                x, y, z = (self.points[v] for v in (a, b, c))
-                if (
-                    orientation(x, y, p) >= 0
-                    and orientation(y, z, p) >= 0
-                    and orientation(z, x, p) >= 0
-                ):
-                    return a, b, c
+            x, y, z = self.points[a], self.points[b], self.points[c]
+            if self._apex.get((a, b)) == c and in_triangle(p, x, y, z):
+                return a, b, c
         raise AuditError(f"no triangle has the point {p}")
 
     def _split(self, u: VertexId, v: VertexId, node: VertexId) -> None:

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from typing import Final, TypeAlias, final
 
 from exactpt.errors import AuditError
-from exactpt.geometry.predicates import Point, between, orientation
+from exactpt.geometry.predicates import Point, between, in_triangle, orientation
 from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Index, Triple, VertexId
 from exactpt.query.subdivision import Subdivision
 
@@ -90,12 +90,7 @@ class Sleeves:
     def _triangle_of(self, tile: int, p: Point) -> int:
         points = self._plane.points
         for i, (a, b, c) in enumerate(self.triangles(tile)):
-            x, y, z = points[a], points[b], points[c]
-            if (
-                orientation(x, y, p) >= 0
-                and orientation(y, z, p) >= 0
-                and orientation(z, x, p) >= 0
-            ):
+            if in_triangle(p, points[a], points[b], points[c]):
                 return i
         raise AuditError(f"no triangle of tile {tile} has the point {p}")
 
@@ -155,14 +150,8 @@ def triangulated(cycle: Sequence[Index], points: list[Point]) -> list[tuple[Inde
 
 def _is_ear(nodes: Sequence[Index], a: Index, b: Index, c: Index, points: list[Point]) -> bool:
     p, q, r = points[a], points[b], points[c]
-    if orientation(p, q, r) <= 0:
-        return False
-    return not any(
-        orientation(r, p, points[v]) >= 0
-        and orientation(p, q, points[v]) >= 0
-        and orientation(q, r, points[v]) >= 0
-        for v in nodes
-        if v not in (a, b, c)
+    return orientation(p, q, r) > 0 and not any(
+        in_triangle(points[v], p, q, r) for v in nodes if v not in (a, b, c)
     )
 
 

@@ -12,6 +12,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction, rational, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
+from exactpt.motion.outline import pieces_of
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
@@ -163,11 +164,7 @@ def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
 
 def _pieces(plan: Body, begin: QQ, end: QQ | None) -> Iterator[tuple[QQ | None, SimpleMotion]]:
     """Yield the pieces of a motion between two times (None: unbounded)."""
-    motion = plan.motion
-    if not isinstance(motion, Pieces):
-        yield end, motion
-        return
-    for until, part in zip([*motion._until, None], motion.motions, strict=True):
+    for part, until in pieces_of(plan.motion):
         if until is not None and until <= begin:
             continue
         if until is None or (end is not None and until >= end):

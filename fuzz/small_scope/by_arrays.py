@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from exactpt.arrays import KINDS, Contacts
-from exactpt.arrays.spans import exact
+from exactpt.kernel.numbers import of_double
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.pairs.contact import Contact
@@ -74,7 +74,7 @@ def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -
         if (expected is None) == (not contacts.found[k]):
             return None
         return "found" if expected is None else "missed"
-    low, high = (exact(float(end[k])) for end in (contacts.low, contacts.high))
+    low, high = (of_double(float(end[k])) for end in (contacts.low, contacts.high))
     if expected.time.compare_rational(low) < 0 or expected.time.compare_rational(high) > 0:
         return "time"
     if high - low > WIDEST:

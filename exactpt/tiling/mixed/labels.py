@@ -32,7 +32,6 @@ from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
 from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label, RingTree
-from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
 
@@ -199,8 +198,17 @@ class LabelledMesh(Mesh):
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]]:
         """See `Mesh.relative_hulls`: the unpinned cycles of the current bodies."""
-        tops = [outline.nodes[TOP] for outline, *_ in self.forest.bodies]
-        return lambda i: loop_along(self.map, self.labels, tops[i])
+        outlines = [outline for outline, *_ in self.forest.bodies]
+        return lambda i: self.cycle(outlines[i])
+
+    def cycle(self, ring_tree: RingTree) -> list[VertexId]:
+        """Return the vertices along the unpinned cycle of a ring, from a determined one on.
+
+        Around an outline, it is the shortest closed curve homotopic to it in free space.
+        """
+        cycle = self.geodesic(ring_tree, TOP)
+        first = cycle.index(min(cycle))
+        return [self.map.origin[h] for h in cycle[first:] + cycle[:first]]
 
     def audit_faces(self, half_edges: Iterable[HalfEdge]) -> None:
         """Check corners, that labels are paths, and that the edges of a tile agree on its node.

@@ -20,7 +20,6 @@ from exactpt.scene.generate import RINGS, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.mixed.forest import Forest
 from exactpt.tiling.mixed.geodesics import Geodesics
-from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 from exactpt.tiling.start import start_tiling
@@ -108,7 +107,7 @@ def around(mesh, vertices, body, ring):
     """The positions along the unpinned cycle of a ring."""
     tree = mesh.forest.bodies[body][ring]
     instant = PredicatesAt(vertices, QQ(0))
-    return [instant.position(v) for v in loop_along(mesh.map, mesh.labels, tree.nodes[TOP])]
+    return [instant.position(v) for v in mesh.cycle(tree)]
 
 
 @every("seed", range(8))
