@@ -129,7 +129,7 @@ def body_of(
     count = sum(len(part.holes) for part in shape.parts)
     if count and holes == "refuse":
         raise InputError(
-            f"{shape.where}: polygon {shorten(shape.name)} has {_counted(count, 'hole')}: "
+            f"{shape.where}: polygon {shorten(shape.name)} has {count} hole{'s'[: count > 1]}: "
             "keep or fill them (--holes, in Python holes=), or cut the polygon open"
         )
     rings = [_rings_of(part, fill=holes == "fill") for part in shape.parts]
@@ -196,7 +196,3 @@ def free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
         name = f"{wanted} {number}"
     last[wanted] = number
     return name
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}" + ("s" if count > 1 else "")

@@ -53,9 +53,9 @@ def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
                 points = _points(sub, tolerance, left)
                 left -= len(points)
                 subpaths.append((points, sub[-1]))
+            yield from _of_subpaths(subpaths, where, name or f"outline {i}")
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
-        yield from _of_subpaths(subpaths, where, name or f"outline {i}")
 
 
 def _of_subpaths(
@@ -74,16 +74,9 @@ def _of_subpaths(
             rings.append(points)
         else:
             others.append(Shape(where, name, "line", points))
-    for outer, holes in _nested(rings, where):
+    for outer, holes in nested(rings):
         yield Shape(where, name, "polygon", rings[outer], [rings[h] for h in holes])
     yield from others
-
-
-def _nested(rings: Sequence[list[Point]], where: str) -> list[tuple[int, list[int]]]:
-    try:
-        return nested(rings)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
 
 
 def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
