@@ -11,15 +11,12 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from benchmarks.methods.with_box2d import time_of_impact
 from benchmarks.output import Output, Row
+from benchmarks.programs import with_box2d, with_ipctk
 from benchmarks.timing import timed
+from exactpt import AuditError, Contact, first_contact
 from exactpt.arrays import KINDS, Contacts, first_contacts, point_segment_contacts
-from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError
-from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import rational
-from exactpt.pairs.contact import Contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
@@ -131,16 +128,13 @@ def _queries(rng: np.random.Generator, count: int) -> _Questions:
         p, a, b = places
         return point_segment_contacts(p, a, b, velocities=list(velocities))
 
-    def with_ipctk(some: list[int]) -> Asked:
-        import ipctk
-
-        ipctk.set_logger_level(ipctk.error)
-        method = ipctk.TightInclusionCCD(TOLERANCE)
+    def ask_ipctk(some: list[int]) -> Asked:
+        method = with_ipctk.method_of("tight inclusion", tolerance=TOLERANCE)
         later = places + velocities
         given = [(*places[:, i], *later[:, i]) for i in some]
         return lambda: [method.point_edge_ccd(*rows) for rows in given]
 
-    peers = {"ipctk, point-edge": ("ipctk", with_ipctk)}
+    peers = {"ipctk, point-edge": ("ipctk", ask_ipctk)}
     return _Questions("points against segments", count, ask, peers)
 
 
@@ -155,14 +149,15 @@ def _triangles(rng: np.random.Generator, count: int, size: float, name: str) -> 
     def ask() -> Contacts:
         return first_contacts(corners.reshape(-1, 2), offsets, pairs, velocities=velocities)
 
-    def with_box2d(some: list[int]) -> Asked:
-        return _box2d(corners, velocities, some)
+    def ask_box2d(some: list[int]) -> Asked:
+        asks = [
+            with_box2d.impact_of({"a": body(2 * i), "b": body(2 * i + 1), "span": 1.0})
+            for i in some
+        ]
+        return lambda: [ask() for ask in asks]
 
-    return _Questions(name, count, ask, {"Box2D, time of impact": ("box2d", with_box2d)})
+    def body(i: int) -> dict[str, object]:
+        x, y = velocities[i].tolist()
+        return {"vertices": corners[i].tolist(), "x": [0.0, x], "y": [0.0, y]}
 
-
-def _box2d(corners: Floats, velocities: Floats, some: list[int]) -> Asked:
-    """What asks for the times of impact of triangles 2 i and 2 i + 1."""
-    rows, steps = corners.tolist(), velocities.tolist()
-    asks = [time_of_impact(rows[2 * i : 2 * i + 2], steps[2 * i : 2 * i + 2]) for i in some]
-    return lambda: [ask() for ask in asks]
+    return _Questions(name, count, ask, {"Box2D, time of impact": ("box2d", ask_box2d)})

@@ -12,9 +12,7 @@ from benchmarks.everyday_later import EVERYDAY_LATER
 from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.timing import beside, near
-from exactpt.collision.detector import first_contact
-from exactpt.pairs.contact import Contact
-from exactpt.scene.scene import Scene
+from exactpt import Contact, Scene, first_contact
 from exactpt.tiling.start import tilings_for
 
 __all__ = ["FULL", "QUICK", "Sizes", "by_methods", "run"]

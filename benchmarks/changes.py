@@ -14,10 +14,8 @@ from typing import Final, NamedTuple
 
 from benchmarks.output import Output, Row
 from benchmarks.timing import exponent
+from exactpt import Body, Rigid, Scene, Translation
 from exactpt.collision.driver import Driver
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
-from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Family", "changes", "run"]
 

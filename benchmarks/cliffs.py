@@ -15,12 +15,7 @@ from benchmarks.auto import by_methods
 from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.timing import beside, in_turn, time_of
-from exactpt.collision.detector import first_contact
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
-from exactpt.pairs.contact import Contact
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
+from exactpt import Body, Contact, Rigid, Scene, Simulation, Translation, first_contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -15,13 +15,9 @@ import numpy as np
 from benchmarks.output import Output, Row
 from benchmarks.shapes import crowd
 from benchmarks.timing import beside, in_turn, near
-from exactpt.collision.detector import first_contact
+from exactpt import Body, Contact, Scene, Translation, first_contact
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.pairs.contact import Contact
-from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

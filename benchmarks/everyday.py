@@ -7,9 +7,8 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Rigid, Scene, Translation
+from exactpt.motion.motions import Motion
 
 __all__ = ["EVERYDAY", "Family", "Points"]
 

@@ -7,9 +7,7 @@ from random import Random
 from typing import Final
 
 from benchmarks.everyday import Family, Points
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Affine, Body, Pieces, Rigid, Scene, Translation
 
 __all__ = ["EVERYDAY_LATER"]
 

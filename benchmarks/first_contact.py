@@ -13,14 +13,12 @@ from random import Random
 from statistics import median
 from typing import Final, NamedTuple, TypeAlias, final
 
+from benchmarks.methods import others
+from benchmarks.methods.arrays import FROM_ARRAYS
 from benchmarks.methods.closed_form import CLOSED_FORM
+from benchmarks.methods.cpp import SWEEP_AND_PRUNE, has_compiler
 from benchmarks.methods.method import Answer, Method, UnsuitableScene, error_of
 from benchmarks.methods.own import EXACT_SEARCH, OWN
-from benchmarks.methods.with_arrays import FROM_ARRAYS
-from benchmarks.methods.with_cpp import SWEEP_AND_PRUNE, has_compiler
-from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
-from benchmarks.methods.with_pymunk import with_pymunk
-from benchmarks.methods.with_shapely import with_shapely
 from benchmarks.output import Output, Row
 from benchmarks.shapes import (
     clamp,
@@ -33,9 +31,7 @@ from benchmarks.shapes import (
     thin_and_fast,
 )
 from benchmarks.timing import timed
-from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.scene.scene import Scene
+from exactpt import AlgebraicNumber, AuditError, Scene
 
 __all__ = ["FAMILIES", "FULL", "QUICK", "Sizes", "run"]
 
@@ -212,11 +208,11 @@ def _methods(steps: Sequence[int]) -> list[Method]:
         EXACT_SEARCH,
         CLOSED_FORM,
         SWEEP_AND_PRUNE,
-        *(with_shapely(n, bisect=False) for n in steps),
-        *(with_shapely(n, bisect=True) for n in steps),
-        *(with_pymunk(n) for n in steps),
-        *(with_tight_inclusion(tolerance, 32) for tolerance in (1e-3, 1e-6)),
-        *(with_additive(rescaling, 32) for rescaling in (0.9, 0.9999)),
+        *(others.shapely(n, bisect=False) for n in steps),
+        *(others.shapely(n, bisect=True) for n in steps),
+        *(others.pymunk(n) for n in steps),
+        *(others.tight_inclusion(tolerance, 32) for tolerance in (1e-3, 1e-6)),
+        *(others.additive(rescaling, 32) for rescaling in (0.9, 0.9999)),
     ]
 
 

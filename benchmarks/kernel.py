@@ -19,16 +19,13 @@ from benchmarks.output import Output, Row
 from benchmarks.plots import series_of
 from benchmarks.root_finders import END, EXACT, FILTER, FINDERS, Finder, exact_first
 from benchmarks.timing import microseconds
+from exactpt import AlgebraicNumber, AuditError, Body, Translation
 from exactpt.certificates.certifier import Certifier
-from exactpt.errors import AuditError
 from exactpt.indices import VertexId
 from exactpt.kernel import filters, vectorized
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

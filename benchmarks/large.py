@@ -21,11 +21,8 @@ import numpy as np
 
 from benchmarks.output import Output, Row
 from benchmarks.timing import per_event, resident
+from exactpt import Bounce, Contact, Scene, Simulation
 from exactpt.collision.driver import NOTHING, Driver
-from exactpt.pairs.contact import Contact
-from exactpt.scene.scene import Scene
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
 
 __all__ = ["FULL", "QUICK", "Sizes", "crowd", "figures", "run"]
 

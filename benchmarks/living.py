@@ -13,18 +13,11 @@ from time import process_time
 from typing import Final, NamedTuple, final
 
 from benchmarks.output import Output, Row
+from exactpt import AuditError, Body, Bounce, Contact, Scene, Simulation, Translation, onward
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.pairs.contact import Contact
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.families.shapes import cells, convex_polygon
-from exactpt.scene.scene import Scene
-from exactpt.simulation.motion_changes import onward
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FULL", "QUICK", "Living", "Sizes", "audit", "box", "run"]

@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import gmpy2
 
+from exactpt import Body, Translation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, ExactQueue
 from exactpt.indices import CertificateId
 from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 
 if TYPE_CHECKING:

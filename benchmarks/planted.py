@@ -11,13 +11,10 @@ from functools import partial
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
+from exactpt import AlgebraicNumber, Body, Scene, Translation
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.scene.families.shapes import cells, convex_polygon
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["FAMILIES", "Planted", "PlantedFamily"]

@@ -6,9 +6,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Final
 
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Scene, Translation
 
 __all__ = ["FAMILIES", "random_linear", "swaps_beside_arc"]
 

@@ -23,13 +23,9 @@ from benchmarks.output import Output, Row
 from benchmarks.point_scenes import random_linear
 from benchmarks.shapes import combs, crowd, deforming, tangle, thin_and_fast
 from benchmarks.timing import timed
-from exactpt import proof_check
+from exactpt import AuditError, InputError, Proof, Scene, first_contact, proof_check, prove
 from exactpt.cgal import check_proof, find_program
-from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.proof import Proof, prove
-from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -18,10 +18,9 @@ from benchmarks.output import Output, Row
 from benchmarks.plots import series_of
 from benchmarks.shapes import TANGLES, TangleFamily, crowd, tangle
 from benchmarks.timing import exponent, memory_of, per_event, resident, timed
+from exactpt import Scene, Simulation
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import TILINGS, start_tiling
 from exactpt.tiling.tiling import Tiling
 

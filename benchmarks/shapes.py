@@ -6,14 +6,11 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
+from exactpt import Body, Polynomial, Scene, Translation
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.scene.families.shapes import box, cells, convex_polygon, velocity
 from exactpt.scene.families.simple import star
-from exactpt.scene.scene import Scene
 
 __all__ = [
     "TANGLES",

@@ -21,15 +21,10 @@ from benchmarks.first_contact import FAMILIES
 from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.timing import timed
+from exactpt import AlgebraicNumber, AuditError, Body, Scene, Simulation, Translation
 from exactpt.certificates import perturbation
-from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.motion import incidence
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import tiling_for_contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

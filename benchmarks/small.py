@@ -12,12 +12,9 @@ from functools import partial
 from random import Random
 from typing import Any, Final, NamedTuple, TypeAlias
 
+from benchmarks.methods import others
 from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import Method, UnsuitableScene, error_of
-from benchmarks.methods.with_box2d import BOX2D
-from benchmarks.methods.with_ipctk import with_tight_inclusion
-from benchmarks.methods.with_pymunk import with_pymunk
-from benchmarks.methods.with_shapely import with_shapely
 from benchmarks.output import Output, Row
 from benchmarks.timing import beside, time_of, timed
 from exactpt.collision.detector import first_contact
@@ -125,8 +122,13 @@ def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
         _row(question, f"exactpt, scene and {name}", least[name], count, expected, 0.0)
         for name in searches
     ]
-    others = [CLOSED_FORM, with_shapely(1000, bisect=True), with_pymunk(1000)]
-    for other in (*others, with_tight_inclusion(1e-6, 32), BOX2D):
+    for other in (
+        CLOSED_FORM,
+        others.shapely(1000, bisect=True),
+        others.pymunk(1000),
+        others.tight_inclusion(1e-6, 32),
+        others.BOX2D,
+    ):
         if other.package is None or output.has(other.package):
             rows += _other(question, other, build(), expected, sizes.runs)
     return rows

@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmarks.output import Output, Row
 from benchmarks.peers import is_installed
+from benchmarks.programs import with_ipctk
 from exactpt.errors import AuditError
 from exactpt.testing.space import (
     FAMILIES,
@@ -191,14 +192,14 @@ TEXTBOOK: Final = (
     "textbook: cubic in doubles, epsilon 1e-9 (ours)",
     f"textbook: {STEPS} steps and bisection (ours)",
 )
-IPCTK: Final[dict[str, dict[str, float]]] = {
-    "ipctk Tight-Inclusion, default": {},
-    "ipctk Tight-Inclusion, tolerance 1e-12, rescaling 1": {
-        "tolerance": 1e-12,
-        "conservative_rescaling": 1.0,
-    },
-    "ipctk additive, default": {},
-    "ipctk additive, rescaling 0.9999": {"conservative_rescaling": 0.9999},
+IPCTK: Final[dict[str, tuple[str, dict[str, float]]]] = {
+    "ipctk Tight-Inclusion, default": ("tight inclusion", {}),
+    "ipctk Tight-Inclusion, tolerance 1e-12, rescaling 1": (
+        "tight inclusion",
+        {"tolerance": 1e-12, "conservative_rescaling": 1.0},
+    ),
+    "ipctk additive, default": ("additive", {}),
+    "ipctk additive, rescaling 0.9999": ("additive", {"conservative_rescaling": 0.9999}),
 }
 
 
@@ -206,12 +207,8 @@ def _methods() -> dict[str, Toi]:
     """Return the function of each engine by its name."""
     methods: dict[str, Toi] = dict(zip(TEXTBOOK, (_cubic, _bisection), strict=True))
     if is_installed("ipctk"):
-        import ipctk
-
-        ipctk.set_logger_level(ipctk.LoggerLevel.off)
-        for name, options in IPCTK.items():
-            make = ipctk.AdditiveCCD if "additive" in name else ipctk.TightInclusionCCD
-            methods[name] = _with_ipctk(make(**options))
+        for name, (way, options) in IPCTK.items():
+            methods[name] = _with_ipctk(with_ipctk.method_of(way, **options))
     return methods
 
 

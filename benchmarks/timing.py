@@ -9,11 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from time import process_time
 from typing import TypeVar
 
-from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Approach, AuditError, Contact
 from exactpt.kernel.budget import resident_memory
-from exactpt.pairs.approach import Approach
-from exactpt.pairs.contact import Contact
 
 __all__ = [
     "beside",

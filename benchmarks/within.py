@@ -13,14 +13,9 @@ from typing import Final, NamedTuple
 from benchmarks.output import Output, Row
 from benchmarks.shapes import crowd
 from benchmarks.timing import fastest, near, time_of
-from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError
+from exactpt import Approach, AuditError, Body, Scene, Translation, first_contact, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.approach_search import ApproachSearch
-from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

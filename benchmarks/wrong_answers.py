@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from random import Random
 from typing import Final, NamedTuple, final
 
+from benchmarks.methods import others
+from benchmarks.methods.arrays import ARRAYS
 from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import Method, UnsuitableScene, error_of
 from benchmarks.methods.own import OWN
-from benchmarks.methods.with_arrays import ARRAYS
-from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
-from benchmarks.methods.with_pymunk import with_pymunk
-from benchmarks.methods.with_shapely import with_shapely
 from benchmarks.output import Cell, Output, Row
 from benchmarks.planted import FAMILIES, Planted
 from exactpt.errors import AuditError
@@ -116,10 +114,10 @@ def _methods(steps: int) -> list[Method]:
     return [
         *EXACT,
         CLOSED_FORM,
-        with_shapely(steps, bisect=True),
-        with_pymunk(steps),
-        with_tight_inclusion(1e-6, 32),
-        with_additive(0.9999, 32),
+        others.shapely(steps, bisect=True),
+        others.pymunk(steps),
+        others.tight_inclusion(1e-6, 32),
+        others.additive(0.9999, 32),
     ]
 
 

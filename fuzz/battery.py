@@ -11,17 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
+from exactpt import Body, Contact, ExactPTError, Rigid, Scene, Simulation, Translation
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.collision.comparison import contrast
-from exactpt.errors import ExactPTError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
-from exactpt.pairs.contact import Contact
 from exactpt.scene.families.degenerate import grids, rings
 from exactpt.scene.families.shapes import box, poly
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.witnesses import tilings_of
 

@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from exactpt.errors import InputError
+from exactpt import InputError, Scene
 from exactpt.scene.format import loads
-from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink_data
 from exactpt.workers.work import HANGS

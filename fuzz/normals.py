@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
+from exactpt import Contact, Pair, Scene
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.incidences import Pair
-from exactpt.scene.scene import Scene
 
 __all__ = ["wrong_normal"]
 

@@ -15,14 +15,13 @@ from itertools import count
 from typing import Any, Final
 from unittest.mock import patch
 
+from exactpt import AlgebraicNumber, InputError
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
 from exactpt.collision import driver
-from exactpt.errors import InputError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel import filters, roots
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import negate
 from exactpt.motion.swept import SweptBoxes
 from exactpt.scene.generate import FAMILIES, generate

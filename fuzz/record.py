@@ -14,11 +14,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
-from exactpt.collision.detector import first_contact
+from exactpt import Contact, Scene, Simulation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.contact import Contact
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from fuzz.subscene import scene_of
 from fuzz.witnesses import tilings_of
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import NamedTuple, final
 
+from exactpt import AlgebraicNumber, AuditError, Scene
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import kind_of, part_of
 from exactpt.collision.driver import Driver, Observer
-from exactpt.errors import AuditError
 from exactpt.indices import Ends
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.algebraic import rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.vertices import WIDTH, Vertices
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
-from exactpt.scene.scene import Scene
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.tiling import Tiling
 

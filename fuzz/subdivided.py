@@ -6,9 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
+from exactpt import Body, Polynomial, Scene
 
 __all__ = ["subdivided"]
 

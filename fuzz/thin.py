@@ -8,8 +8,7 @@ from __future__ import annotations
 from random import Random
 from typing import Final
 
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
+from exactpt import Body, Scene
 
 __all__ = ["SUFFIX", "thinned"]
 

@@ -11,22 +11,21 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, ZZ, power_of_two
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.kernel.square_root import exact_square_root
-from exactpt.motion.body import Body
-from exactpt.motion.motions import (
+from exactpt import (
     Affine,
-    Motion,
+    AlgebraicNumber,
+    Body,
+    Contact,
+    Pair,
     Pieces,
-    Position,
+    Polynomial,
     Rigid,
-    SimpleMotion,
+    Scene,
     Translation,
 )
-from exactpt.pairs.contact import Contact, Pair
-from exactpt.scene.scene import Scene
+from exactpt.kernel.numbers import QQ, ZZ, power_of_two
+from exactpt.kernel.square_root import exact_square_root
+from exactpt.motion.motions import Motion, Position, SimpleMotion
 from fuzz.rings import parts_of
 
 __all__ = ["VARIANTS", "Variant", "difference", "expected_time"]

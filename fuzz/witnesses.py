@@ -5,15 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final, TypeAlias
 
-from exactpt import proof_check
+from exactpt import Contact, Scene, Simulation, first_contact, proof_check, prove
 from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.detector import first_contact
-from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.proof import prove
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import tilings_for
 from fuzz.proofs.checking import checker
 from fuzz.questions.all_pairs import first_contact_allpairs

@@ -12,10 +12,9 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
-from exactpt.errors import InputError
+from exactpt import InputError, Polynomial
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.kernel.polynomial import Polynomial
 from exactpt.testing import Moving, Question, Truth
 
 __all__ = ["as_asked", "from_zero", "kind_of", "why_not"]

@@ -1,6 +1,6 @@
 """Engines: adapters, what these say of themselves, and the processes that answer.
 
-An adapter is one file in `adapters` (or anywhere): ``with_NAME.py`` with ``ABOUT`` and
+An adapter is one file in `benchmarks/programs` (or anywhere): ``with_NAME.py`` with ``ABOUT`` and
 ``answer(question, way)``, or ``with_NAME.mjs`` with ``about``, ``load()`` and
 ``answer(engine, question, way)``. It answers with the time of the first contact, or null, and knows
 nothing of exactpt: a reproducer is a copy of it with a question.
@@ -27,7 +27,7 @@ from exactpt.errors import InputError
 __all__ = ["ADAPTERS", "Crash", "Engine", "Missing", "Reply", "all_adapters", "node_modules"]
 
 HERE: Final = Path(__file__).parent
-ADAPTERS: Final = HERE / "adapters"
+ADAPTERS: Final = HERE.parent / "programs"
 PATIENCE: Final = 60.0
 """Seconds after which a process that does not answer is taken for crashed."""
 LOADING: Final = 60.0

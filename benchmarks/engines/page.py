@@ -27,7 +27,7 @@ The error is the largest one of a time within the promise (where bodies slide al
 
 _TAIL: Final = """## Another engine
 
-An adapter is one file next to the others in `benchmarks/engines/adapters`: `with_NAME.py` with `ABOUT` and `answer(question, way)`, or `with_NAME.mjs` with `about`, `load()` and `answer(engine, question, way)`. `ABOUT` states how the engine is called, quotes what it promises, which questions it takes and what tolerance it is allowed. Whoever knows an engine better than its adapter does: mend the adapter, and run the command.
+An adapter is one file next to the others in `benchmarks/programs`: `with_NAME.py` with `ABOUT` and `answer(question, way)`, or `with_NAME.mjs` with `about`, `load()` and `answer(engine, question, way)`. `ABOUT` states how the engine is called, quotes what it promises, which questions it takes and what tolerance it is allowed. Whoever knows an engine better than its adapter does: mend the adapter, and run the command.
 """  # noqa: E501 - one line a paragraph
 
 

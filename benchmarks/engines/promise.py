@@ -19,9 +19,8 @@ from fractions import Fraction
 from typing import Final, NamedTuple
 
 from benchmarks.engines.domain import kind_of
+from exactpt import ContactInterval, contact_intervals, distance
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.pairs.distance import distance
-from exactpt.pairs.intervals import ContactInterval, contact_intervals
 from exactpt.testing import Moving, Question, Truth
 from exactpt.testing.comparing import TOLERANCE, verdict
 

@@ -1,4 +1,4 @@
-"""Reproducers: an adapter with its worst question, a program in the engine's own language."""
+"""Reproducers: an adapter, its part for two bodies, with its worst question."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def reproducer(result: Result, worst: Finding, adapter: Path) -> str:
         end = tail.format(
             question=json.dumps(asked), way=json.dumps(result.way), truth=json.dumps(truth)
         )
-    source = adapter.read_text(encoding="utf-8")
+    source = adapter.read_text(encoding="utf-8").partition("# Whole scenes\n")[0]
     return "\n".join(mark + line for line in lines) + "\n\n" + source.rstrip() + "\n" + end
 
 

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias, final
 
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.scene.scene import Scene
+from exactpt import AlgebraicNumber, Scene
 
 __all__ = ["Answer", "Method", "UnsuitableScene", "error_of"]
 

@@ -8,10 +8,8 @@ from functools import partial
 from typing import Final
 
 from benchmarks.methods.method import Answer, Method
-from exactpt.collision.detector import first_contact
-from exactpt.pairs.contact import Contact
+from exactpt import Contact, Scene, first_contact
 from exactpt.scene.format import loads
-from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz.questions.all_pairs import first_contact_allpairs
 

@@ -9,10 +9,9 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
-from exactpt.exchange.files import write_shapes
+from exactpt import Simulation, write_shapes
 from exactpt.proof.written import write_proof
 from exactpt.scene.generate import families
-from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.store import sealed
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
 from fuzz.subscene import scene_of

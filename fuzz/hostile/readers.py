@@ -12,11 +12,8 @@ from pathlib import Path
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt import proof_check
+from exactpt import BudgetExceeded, ExactPTError, Simulation, proof_check, read_shapes
 from exactpt.cli import main
-from exactpt.errors import BudgetExceeded, ExactPTError
-from exactpt.exchange.files import read_shapes
-from exactpt.simulation.simulation import Simulation
 from fuzz.hostile.files import SCENES, Hostile, scene_text
 from fuzz.limits import TooSlow, limit
 

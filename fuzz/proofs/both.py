@@ -13,13 +13,8 @@ from pathlib import Path
 from random import Random
 from typing import Any, Final
 
-from exactpt import proof_check
-from exactpt.errors import InputError
-from exactpt.motion.body import Body
-from exactpt.motion.pose_path import PosePath
-from exactpt.proof import prove
+from exactpt import Body, InputError, PosePath, Scene, proof_check, prove
 from exactpt.scene.generate import families, generate
-from exactpt.scene.scene import Scene
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit
 from fuzz.proofs.checking import checker

@@ -13,12 +13,10 @@ from pathlib import Path
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt.errors import InputError
-from exactpt.proof import prove
+from exactpt import InputError, Scene, prove
 from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import families, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.start import tilings_for
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit

@@ -7,14 +7,11 @@ from math import cos, pi, sin
 from random import Random
 from typing import Final
 
-from exactpt.errors import AuditError, InputError
+from exactpt import AuditError, Body, InputError, Scene, Translation
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.proof.lines import header
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["spliced", "touching_and_going", "wheel", "wrong_splice"]

@@ -11,17 +11,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from exactpt import AlgebraicNumber, Body, Contact, Scene
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation_polynomial
 from exactpt.motion.track import Track
-from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.contact import contact_of
 from exactpt.pairs.incidences import tracks_just_before
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs_radii import (
     core_distance,
     first_at_distance,

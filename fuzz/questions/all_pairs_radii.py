@@ -12,11 +12,10 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import TypeAlias
 
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Body
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.track import Track
 

@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from functools import cache
 from typing import final
 
+from exactpt import AlgebraicNumber, Clearance, Scene
 from exactpt.cgal import CgalCheck
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.pairs.clearance import Clearance, ClearancePiece
-from exactpt.scene.scene import Scene
+from exactpt.pairs.clearance import ClearancePiece
 from fuzz.questions import reference
 
 __all__ = ["compare"]

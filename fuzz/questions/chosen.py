@@ -5,12 +5,9 @@ from __future__ import annotations
 from itertools import combinations
 from random import Random
 
-from exactpt.collision.detector import first_contact
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Contact, Planner, Scene, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.planner import Planner
-from exactpt.scene.scene import Scene, scene_of
+from exactpt.scene.scene import scene_of
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.scenes import crowded_scene
 

@@ -10,10 +10,9 @@ from __future__ import annotations
 from itertools import pairwise, product
 from typing import Literal
 
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Body
 from exactpt.kernel.integer_polynomial import IntPoly, add, scale
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import orientation_polynomial
 from exactpt.motion.track import Track
 from fuzz.questions.reference import (

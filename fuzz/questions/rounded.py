@@ -8,13 +8,8 @@ from __future__ import annotations
 
 from random import Random
 
+from exactpt import Body, Scene, clearance, contact_intervals, distance, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.pairs.approach import first_within
-from exactpt.pairs.distance import distance
-from exactpt.pairs.intervals import contact_intervals
-from exactpt.pairs.surroundings import clearance
-from exactpt.scene.scene import Scene
 from fuzz.questions import reference
 from fuzz.questions.tiny import pair_scene
 from fuzz.rings import parts_of

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Pieces, Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Pieces, Rigid, Scene, Translation
+from exactpt.motion.motions import Motion
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.rings import parts_of
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from random import Random
 from typing import Final
 
-from exactpt.errors import InputError
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Affine, Body, InputError, Pieces, Rigid, Scene, Translation
+from exactpt.motion.motions import Motion
 
 __all__ = ["pair_scene", "touching_scene"]
 

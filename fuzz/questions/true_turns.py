@@ -17,12 +17,7 @@ import mpmath
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.motion.pose_path import PosePath
-from exactpt.motion.spin import Spin
-from exactpt.scene.scene import Scene
+from exactpt import Body, Polynomial, PosePath, Scene, Spin, Translation
 
 __all__ = ["DIGITS", "Approach", "Real", "Truth", "UndecidedError", "real"]
 

@@ -7,15 +7,10 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Final, NamedTuple
 
+from exactpt import Contact, InputError, Scene, Simulation, first_contact, stop
 from exactpt.collision.comparison import contrast
-from exactpt.collision.detector import first_contact
-from exactpt.errors import InputError
 from exactpt.kernel.numbers import ZZ
-from exactpt.pairs.contact import Contact
 from exactpt.pairs.pieces import linear_pieces
-from exactpt.scene.scene import Scene
-from exactpt.simulation.responses import stop
-from exactpt.simulation.simulation import Simulation
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
 from fuzz.questions.all_pairs import first_contact_allpairs

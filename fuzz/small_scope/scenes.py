@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.scene.scene import Scene
 from fuzz.small_scope.motions import (
     DRIFTS,
     Approach,

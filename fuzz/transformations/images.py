@@ -8,13 +8,9 @@ from itertools import combinations
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt import FreeSpace
-from exactpt.errors import InputError
+from exactpt import Body, FreeSpace, InputError, Polynomial, Scene
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
 from exactpt.motion.motions import Position
-from exactpt.scene.scene import Scene
 from fuzz.questions.reference import nearest
 
 __all__ = ["TRANSFORMATIONS", "Feature", "Image", "Side", "move_alike", "untouched"]

@@ -7,10 +7,8 @@ from contextlib import AbstractContextManager, nullcontext
 from random import Random
 from typing import Final, NamedTuple
 
+from exactpt import Body, Scene, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene
 from fuzz.questions.spinning import spinning_scene

@@ -3,9 +3,7 @@
 import csv
 
 from benchmarks.output import Output
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Rigid, Scene, Translation
 from exactpt.testing import Moving
 
 

@@ -1,7 +1,7 @@
 """Kinds of damage to a tile, each with a sentence that says why no such tile is right.
 
-A kind is a function (rng, tiling, tile, shapes) -> (tile, shapes), or None where this
-tiling does not offer the damage. It works on copies.
+A kind is a function (rng, tile, shapes) that changes copies; the result is (tile, shapes), or None
+where this tiling does not offer the damage (`Unsuited`).
 """
 
 from copy import deepcopy
@@ -16,10 +16,25 @@ TINY = Fraction(1, 10**40)
 KINDS = {}
 
 
+class Unsuited(Exception):  # noqa: N818 - an outcome
+    """The tiling does not offer the damage."""
+
+
+def pick(rng, options):
+    if not options:
+        raise Unsuited
+    return rng.choice(options)
+
+
 def damage(name):
     def register(function):
         def on_copies(rng, tile, shapes):
-            return function(rng, deepcopy(tile), list(shapes))
+            tile, shapes = deepcopy(tile), list(shapes)
+            try:
+                function(rng, tile, shapes)
+            except Unsuited:
+                return None
+            return tile, shapes
 
         KINDS[name] = on_copies
         return on_copies
@@ -70,10 +85,7 @@ def edge_between(u, v, *, kind="diagonal", hull=False):
 @damage("edge removed")
 def edge_removed(rng, tile, shapes):
     """Its two regions became one, or a body lost an edge, or the hull is open."""
-    if not tile["edges"]:
-        return None
-    tile["edges"].remove(rng.choice(tile["edges"]))
-    return tile, shapes
+    tile["edges"].remove(pick(rng, tile["edges"]))
 
 
 @damage("diagonal removed, two faces merged")
@@ -93,8 +105,8 @@ def two_faces_merged(rng, tile, shapes):
         tile["faces"].remove(f)
         tile["faces"].remove(g)
         tile["faces"].append({"vertices": cycle, "corners": (convex * 3)[:3], "region": "F2"})
-        return tile, shapes
-    return None
+        return
+    raise Unsuited
 
 
 @damage("edge added")
@@ -102,20 +114,14 @@ def edge_added(rng, tile, shapes):
     """It crosses something, or cuts a face or a polygon that is listed as one."""
     there, n = pairs(tile), len(tile["vertices"])
     free = [(u, v) for u in range(n) for v in range(u) if (v, u) not in there]
-    if not free:
-        return None
-    tile["edges"].append(edge_between(*rng.choice(free)))
-    return tile, shapes
+    tile["edges"].append(edge_between(*pick(rng, free)))
 
 
 @damage("edge repeated")
 def edge_repeated(rng, tile, shapes):
     """No edge is there twice, from either end."""
-    if not tile["edges"]:
-        return None
-    edge = rng.choice(tile["edges"])
+    edge = pick(rng, tile["edges"])
     tile["edges"].append(edge | {"u": edge["v"], "v": edge["u"]})
-    return tile, shapes
 
 
 def facing(tile):
@@ -139,11 +145,8 @@ def vertex_onto_edge(rng, tile, shapes):
     if rng.random() < 0.5:
         v = rng.randrange(len(points))
         choices = [(v, a, b) for a, b in sorted(pairs(tile)) if v not in (a, b)]
-    if not choices:
-        return None
-    v, a, b = rng.choice(choices)
+    v, a, b = pick(rng, choices)
     move(tile, v, on_line(points[a], points[b], Fraction(rng.randint(1, 98), 99)))
-    return tile, shapes
 
 
 @damage("vertex moved 1e-40 beyond an edge")
@@ -151,13 +154,10 @@ def vertex_beyond_edge(rng, tile, shapes):
     """A vertex has left its face, just so."""
     points = positions(tile)
     choices = list(facing(tile))
-    if not choices:
-        return None
-    v, a, b = rng.choice(choices)
+    v, a, b = pick(rng, choices)
     p, q = points[a], points[b]
     x, y = on_line(p, q, Fraction(rng.randint(1, 98), 99))
     move(tile, v, (x + TINY * (q[1] - p[1]), y - TINY * (q[0] - p[0])))
-    return tile, shapes
 
 
 @damage("flat vertex moved 1e-40 aside")
@@ -178,12 +178,9 @@ def flat_vertex_aside(rng, tile, shapes):
                 inner = next((p for p in points if turn(a, b, p) != 0), None)
                 left = inner is None or turn(a, b, inner) > 0
                 flat.append((v, a, b, -1 if left else 1))
-    if not flat:
-        return None
-    v, a, b, side = rng.choice(flat)
+    v, a, b, side = pick(rng, flat)
     x, y = points[v]
     move(tile, v, (x + side * TINY * (b[1] - a[1]), y - side * TINY * (b[0] - a[0])))
-    return tile, shapes
 
 
 def edge_is_hull(tile, u, v):
@@ -195,17 +192,15 @@ def duplicate_vertex(rng, tile, shapes):
     """No two vertices are at one point."""
     points = positions(tile)
     if len(points) < 2:
-        return None
+        raise Unsuited
     u, v = rng.sample(range(len(points)), 2)
     move(tile, u, points[v])
-    return tile, shapes
 
 
 @damage("vertex listed twice")
 def vertex_listed_twice(rng, tile, shapes):
     """A vertex of a body is one vertex."""
     tile["vertices"].append(dict(rng.choice(tile["vertices"])))
-    return tile, shapes
 
 
 @damage("isolated vertex")
@@ -213,69 +208,52 @@ def isolated_vertex(rng, tile, shapes):
     """A body without an edge, in a face, in a polygon, on an edge, or outside the hull."""
     points = positions(tile)
     if len(points) < 2:
-        return None
+        raise Unsuited
     a, b, c = (rng.choice(points) for _ in range(3))
     s, t = Fraction(rng.randint(1, 50), 99), Fraction(rng.randint(1, 48), 99)
     x, y = on_line(on_line(a, b, s), c, t)
     if (x, y) in points:
-        return None
+        raise Unsuited
     tile["vertices"].append({"body": "new", "vertex": 0, "x": str(x), "y": str(y)})
-    return tile, [*shapes, BodyShape("new", 1)]
+    shapes.append(BodyShape("new", 1))
 
 
 @damage("face dropped")
 def face_dropped(rng, tile, shapes):
     """Every free region is a face."""
-    if not tile["faces"]:
-        return None
-    tile["faces"].remove(rng.choice(tile["faces"]))
-    return tile, shapes
+    tile["faces"].remove(pick(rng, tile["faces"]))
 
 
 @damage("face reversed")
 def face_reversed(rng, tile, shapes):
     """Faces are counter-clockwise."""
-    if not tile["faces"]:
-        return None
-    rng.choice(tile["faces"])["vertices"].reverse()
-    return tile, shapes
+    pick(rng, tile["faces"])["vertices"].reverse()
 
 
 @damage("face repeated")
 def face_repeated(rng, tile, shapes):
     """No region is two faces."""
-    if not tile["faces"]:
-        return None
-    tile["faces"].append(deepcopy(rng.choice(tile["faces"])))
-    return tile, shapes
+    tile["faces"].append(deepcopy(pick(rng, tile["faces"])))
 
 
 @damage("vertices of a face swapped")
 def face_scrambled(rng, tile, shapes):
     """Another cycle of the same vertices is another face."""
     faces = [f for f in tile["faces"] if len(f["vertices"]) > 3]
-    if not faces:
-        return None
-    cycle = rng.choice(faces)["vertices"]
+    cycle = pick(rng, faces)["vertices"]
     i = rng.randrange(len(cycle))
     cycle[i], cycle[i - 1] = cycle[i - 1], cycle[i]
-    return tile, shapes
 
 
 @damage("wrong corner")
 def wrong_corner(rng, tile, shapes):
     """The three corners are the convex ones of that face."""
-    if not tile["faces"]:
-        return None
-    face = rng.choice(tile["faces"])
+    face = pick(rng, tile["faces"])
     others = [v for v in range(len(tile["vertices"])) if v not in face["corners"]]
     reflex = [v for v in face["vertices"] if v in others]
     if rng.random() < 0.7:
         others = reflex
-    if not others:
-        return None
-    face["corners"][rng.randrange(3)] = rng.choice(others)
-    return tile, shapes
+    face["corners"][rng.randrange(3)] = pick(rng, others)
 
 
 @damage("diagonal inside a polygon")
@@ -290,44 +268,33 @@ def diagonal_inside(rng, tile, shapes):
                 sides = [turn(points[a], points[b], middle) for a, b in cyclic_pairs(ring)]
                 if 0 not in sides and contains(polygon, middle):
                     choices.append((u, v))
-    if not choices:
-        return None
-    tile["edges"].append(edge_between(*rng.choice(choices)))
-    return tile, shapes
+    tile["edges"].append(edge_between(*pick(rng, choices)))
 
 
 @damage("clockwise polygon")
 def clockwise_polygon(rng, tile, shapes):
     """A polygon keeps the orientation that it has in the scene."""
     known = [i for i, s in enumerate(shapes) if s.closed and s.size > 2 and s.clockwise is not None]
-    if not known:
-        return None
-    i = rng.choice(known)
+    i = pick(rng, known)
     shapes[i] = shapes[i]._replace(clockwise=not shapes[i].clockwise)
-    return tile, shapes
 
 
 @damage("vertices of a body swapped")
 def body_scrambled(rng, tile, shapes):
     """The edges of a body join the vertices in its order."""
     long = [s for s in shapes if s.size > (3 if s.closed else 2)]
-    if not long:
-        return None
-    shape = rng.choice(long)
+    shape = pick(rng, long)
     i = rng.randrange(1, shape.size - 1)
     for vertex in tile["vertices"]:
         if vertex["body"] == shape.name and vertex["vertex"] in (i, i + 1):
             vertex["vertex"] = 2 * i + 1 - vertex["vertex"]
-    return tile, shapes
 
 
 @damage("hull edge missing")
 def hull_edge_missing(rng, tile, shapes):
     """Consistent, with the face beside it gone too, but the whole is not convex."""
     edges = [e for e in tile["edges"] if e["hull"] and e["kind"] == "diagonal"]
-    if not edges:
-        return None
-    edge = rng.choice(edges)
+    edge = pick(rng, edges)
     side = beside(tile)
     face = side.get((edge["u"], edge["v"])) or side.get((edge["v"], edge["u"]))
     tile["edges"].remove(edge)
@@ -336,34 +303,26 @@ def hull_edge_missing(rng, tile, shapes):
         exposed = {tuple(sorted(e)) for e in cyclic_pairs(face["vertices"])}
         for e in tile["edges"]:
             e["hull"] |= tuple(sorted((e["u"], e["v"]))) in exposed
-    return tile, shapes
 
 
 @damage("wrong kind of edge")
 def wrong_kind(rng, tile, shapes):
     """Boundary edges are exactly those of the bodies."""
-    if not tile["edges"]:
-        return None
-    edge = rng.choice(tile["edges"])
+    edge = pick(rng, tile["edges"])
     edge["kind"] = "boundary" if edge["kind"] == "diagonal" else "diagonal"
-    return tile, shapes
 
 
 @damage("wrong hull flag")
 def wrong_hull_flag(rng, tile, shapes):
     """Hull edges are exactly those with the outside beside them."""
-    if not tile["edges"]:
-        return None
-    edge = rng.choice(tile["edges"])
+    edge = pick(rng, tile["edges"])
     edge["hull"] = not edge["hull"]
-    return tile, shapes
 
 
 @damage("body forgotten")
 def body_forgotten(rng, tile, shapes):
     """Every vertex belongs to a body of the scene."""
     shapes.remove(rng.choice(shapes))
-    return tile, shapes
 
 
 @damage("vertex forgotten")
@@ -371,35 +330,31 @@ def vertex_forgotten(rng, tile, shapes):
     """Every vertex of every body is in the tile."""
     i = rng.randrange(len(shapes))
     shapes[i] = shapes[i]._replace(size=shapes[i].size + 1)
-    return tile, shapes
 
 
 @damage("mirror image")
 def mirror_image(rng, tile, shapes):
     """In a mirror image every face is clockwise."""
     if not tile["faces"]:
-        return None
+        raise Unsuited
     for v, (x, y) in enumerate(positions(tile)):
         move(tile, v, (-x, y))
-    return tile, [shape._replace(clockwise=None) for shape in shapes]
+    shapes[:] = [shape._replace(clockwise=None) for shape in shapes]
 
 
 @damage("vertex moved into a polygon")
 def vertex_into_polygon(rng, tile, shapes):
     """A vertex of another body, its edges drawn along, lies inside a polygon."""
     points, inside = positions(tile), rings(tile, shapes)
-    if not inside:
-        return None
-    ring = rng.choice(inside)
+    ring = pick(rng, inside)
     others = [v for v in range(len(points)) if v not in ring]
     polygon = [points[v] for v in ring]
     a, b, c = (rng.choice(polygon) for _ in range(3))
     p = on_line(on_line(a, b, Fraction(rng.randint(1, 98), 99)), c, Fraction(1, 3))
     on_side = any(turn(points[u], points[v], p) == 0 for u, v in cyclic_pairs(ring))
     if not others or on_side or not contains(polygon, p):
-        return None
+        raise Unsuited
     move(tile, rng.choice(others), p)
-    return tile, shapes
 
 
 @damage("diagonal replaced by a crossing one")
@@ -416,5 +371,5 @@ def diagonal_flipped_wrongly(rng, tile, shapes):
         ]
         if ends[0] != ends[1] and tuple(sorted(ends)) not in pairs(tile):
             edge["u"], edge["v"] = ends
-            return tile, shapes
-    return None
+            return
+    raise Unsuited

@@ -5,9 +5,8 @@ from fractions import Fraction
 from hypothesis import strategies as st
 from strategies import as_rational, fractions
 
+from exactpt import Affine, Body, Rigid, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.vertices import Vertices
 
 START, END = QQ(0), QQ(4)

@@ -6,9 +6,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from exactpt import proof_check
+from exactpt import InputError, proof_check
 from exactpt.cgal import check_proof
-from exactpt.errors import InputError
 from exactpt.proof.emit import ProofRun, scene_bytes
 from fuzz.questions.all_pairs import first_contact_allpairs
 

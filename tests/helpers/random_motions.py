@@ -8,9 +8,7 @@ import random
 from dataclasses import dataclass
 from fractions import Fraction
 
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
-from exactpt.scene.scene import Scene
+from exactpt import Affine, Body, Pieces, Rigid, Scene, Translation
 
 __all__ = ["MOTIONS", "NUMBERS", "SETTINGS", "Setting", "lanes", "random_scene"]
 

@@ -2,10 +2,8 @@
 
 from importlib.resources import files
 
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
+from exactpt import Body, Rigid, Scene, Translation
 from exactpt.scene.format import loads
-from exactpt.scene.scene import Scene
 
 
 def demo():

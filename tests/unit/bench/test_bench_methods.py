@@ -1,22 +1,25 @@
-"""Each way to find a first contact, on scenes whose answers are plain."""
+"""Each way to find a first contact, on plain scenes; planted answers are the exact ones."""
 
 import sys
+from random import Random
 
 import pytest
 from bench_help import closing_jaw, meeting, passing, segments_and_points, thrown, turning
+from folding import every
 
+from benchmarks.methods import others
+from benchmarks.methods.arrays import FROM_ARRAYS
 from benchmarks.methods.closed_form import CLOSED_FORM
-from benchmarks.methods.method import UnsuitableScene, error_of
+from benchmarks.methods.cpp import SWEEP_AND_PRUNE, has_compiler
+from benchmarks.methods.method import Method, UnsuitableScene, error_of
 from benchmarks.methods.moving import Moving
 from benchmarks.methods.own import EXACT_SEARCH, OWN, fresh
-from benchmarks.methods.with_arrays import FROM_ARRAYS
-from benchmarks.methods.with_box2d import BOX2D
-from benchmarks.methods.with_cpp import SWEEP_AND_PRUNE, has_compiler
-from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
-from benchmarks.methods.with_pymunk import with_pymunk
-from benchmarks.methods.with_shapely import with_shapely
+from benchmarks.planted import FAMILIES, Planted
 from benchmarks.shapes import combs, tangle
+from benchmarks.wrong_answers import Wrong, count_wrong
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from fuzz.questions.all_pairs import first_contact_allpairs
 
 STEPS = 128
 ANSWERS = [
@@ -64,21 +67,21 @@ def test_closed_form(make, truth):
 def test_shapely_is_late_by_at_most_a_step(make, truth):
     pytest.importorskip("shapely")
     scene = make()
-    found = answer(with_shapely(STEPS, bisect=False), scene)
+    found = answer(others.shapely(STEPS, bisect=False), scene)
     if truth is None:
         assert found is None
     elif make is segments_and_points:
         assert found is None  # no step meets a point on a segment
     else:
         assert 0.0 <= found - truth <= float(scene.end) / STEPS
-        assert answer(with_shapely(STEPS, bisect=True), scene) == pytest.approx(truth, abs=1e-12)
+        assert answer(others.shapely(STEPS, bisect=True), scene) == pytest.approx(truth, abs=1e-12)
 
 
 @pytest.mark.parametrize("make, truth", [pair for pair in ANSWERS if pair[0] is not closing_jaw])
 def test_pymunk_is_late_by_at_most_a_step(make, truth):
     pytest.importorskip("pymunk")
     scene = make()
-    found = answer(with_pymunk(STEPS), scene)
+    found = answer(others.pymunk(STEPS), scene)
     if truth is None or make is segments_and_points:
         assert found is None
     else:
@@ -88,11 +91,11 @@ def test_pymunk_is_late_by_at_most_a_step(make, truth):
 def test_pymunk_gets_bodies_that_are_not_convex_in_pieces():
     pytest.importorskip("pymunk")
     pytest.importorskip("shapely")
-    assert answer(with_pymunk(410), tangle(combs(16))) == pytest.approx(14.0, abs=0.11)
+    assert answer(others.pymunk(410), tangle(combs(16))) == pytest.approx(14.0, abs=0.11)
 
 
 @pytest.mark.parametrize("make, truth", [pair for pair in ANSWERS if pair[0] is not thrown])
-@pytest.mark.parametrize("method", [with_tight_inclusion(1e-6, 8), with_additive(0.9999, 8)])
+@pytest.mark.parametrize("method", [others.tight_inclusion(1e-6, 8), others.additive(0.9999, 8)])
 def test_ipctk_is_early(method, make, truth):
     pytest.importorskip("ipctk")
     found = answer(method, make())
@@ -104,15 +107,15 @@ def test_a_method_says_what_it_is_not_for():
         CLOSED_FORM.prepare(turning())
     pytest.importorskip("pymunk")
     with pytest.raises(UnsuitableScene, match="deform"):
-        with_pymunk(STEPS).prepare(closing_jaw())
+        others.pymunk(STEPS).prepare(closing_jaw())
 
 
 def test_pymunk_without_shapely_takes_convex_bodies_alone(monkeypatch):
     pytest.importorskip("pymunk")
     monkeypatch.setitem(sys.modules, "shapely", None)
-    assert answer(with_pymunk(STEPS), meeting()) == pytest.approx(3.0, abs=0.1)
+    assert answer(others.pymunk(STEPS), meeting()) == pytest.approx(3.0, abs=0.1)
     with pytest.raises(UnsuitableScene, match="without Shapely"):
-        with_pymunk(STEPS).prepare(tangle(combs(16)))
+        others.pymunk(STEPS).prepare(tangle(combs(16)))
 
 
 def test_positions_in_doubles_are_the_positions():
@@ -136,11 +139,62 @@ def test_a_fresh_scene_is_the_same_scene():
 @pytest.mark.parametrize("make, truth", [(meeting, 3.0), (passing, None)])
 def test_box2d_stops_just_before_the_contact(make, truth):
     pytest.importorskip("Box2D")
-    found = answer(BOX2D, make())
+    found = answer(others.BOX2D, make())
     assert found is None if truth is None else 0.0 < truth - found < 0.005
 
 
 @pytest.mark.parametrize("make", [thrown, segments_and_points, closing_jaw, turning])
 def test_box2d_is_for_two_polygons_in_linear_motion(make):
     with pytest.raises(UnsuitableScene):
-        BOX2D.prepare(make())
+        others.BOX2D.prepare(make())
+
+
+# Planted answers are those of the plain exact search, and what is asked is asked in doubles
+
+NO_CONTACT = {"graze, gap 2^-40", "tangential, gap 2^-47"}
+ALWAYS_CONTACT = {"exact graze", "graze, overlap 2^-40", "tangential touch"}
+ALWAYS_CONTACT |= {"tangential, crossing 2^-47"}
+NO_DOUBLES = {"rational grid", "offset 2^30 to 2^50"}
+
+
+def planted(family, count=4):
+    return [FAMILIES[family](Random(f"{family}:test:{i}")) for i in range(count)]
+
+
+@every("family", FAMILIES)
+def test_the_planted_answer_is_true(family):
+    for scene, truth in planted(family):
+        contact = first_contact_allpairs(scene)
+        assert (contact and contact.time) == truth
+        assert family not in NO_CONTACT or truth is None
+        assert family not in ALWAYS_CONTACT or truth is not None
+
+
+@pytest.mark.parametrize("family", sorted(set(FAMILIES) - NO_DOUBLES))
+def test_coordinates_are_doubles(family):
+    for scene, _ in planted(family):
+        for body in scene.bodies:
+            for track in body._piece_after(scene.start).tracks:
+                for c in (*track.x, *track.y):
+                    value = QQ(c, track.w[0])
+                    assert QQ(*float(value).as_integer_ratio()) == value
+
+
+def method_that_says(answer):
+    return Method("test", "", lambda _: lambda: answer)
+
+
+def test_wrong_answers_are_counted():
+    scene = planted("exact graze", 1)[0].scene
+    scenes = [Planted(scene, AlgebraicNumber(1)), Planted(scene, None)]
+    assert count_wrong(method_that_says(None), scenes) == Wrong(2, missed=1)
+    assert count_wrong(method_that_says(1.0), scenes) == Wrong(2, invented=1)
+    assert count_wrong(method_that_says(1.0 + 1e-8), scenes) == Wrong(2, invented=1, off=1)
+    assert count_wrong(method_that_says(1.0 + 1e-10), scenes) == Wrong(2, invented=1)
+
+
+def test_of_exactpt_any_error_counts(monkeypatch):
+    late = Method(*[getattr(OWN[0], a) for a in ("name", "setting")], lambda _: lambda: 1.0 + 1e-15)
+    monkeypatch.setattr("benchmarks.wrong_answers.EXACT", (late,))
+    scenes = [Planted(planted("exact graze", 1)[0].scene, AlgebraicNumber(1))]
+    assert count_wrong(late, scenes) == Wrong(1, off=1)

@@ -1,16 +1,12 @@
 """What commands say while they run: events in words, silence, a bar on terminals alone."""
 
 import pytest
-from click.testing import CliRunner
+from commands import run
 from terminals import Bar, Terminal
 
+from exactpt import AlgebraicNumber, Body, Scene, Simulation, Translation
 from exactpt.cli import cli
 from exactpt.cli.progress import estimating, progress
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 
 
 @pytest.fixture
@@ -22,10 +18,6 @@ def scene(tmp_path):
     ]
     Scene(bodies, (0, 20)).save(tmp_path / "scene.json")
     return tmp_path / "scene.json"
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
 
 
 def test_verbose_prints_every_event(scene):

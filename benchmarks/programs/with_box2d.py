@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 ABOUT: dict[str, Any] = {
@@ -39,18 +40,31 @@ def answer(question: dict[str, Any], way: str) -> float | None:  # noqa: ARG001
     """The time at which the shapes are about the slop apart."""
     import Box2D
 
-    a, b = question["a"], question["b"]
-    span = question["span"]
-    state, share = Box2D.b2TimeOfImpact(
-        shapeA=shape_of(a), shapeB=shape_of(b), sweepA=sweep(a, span), sweepB=sweep(b, span),
-        tMax=1.0,
-    )  # fmt: skip
+    state, share = impact_of(question)()
     if state == Box2D.b2TOIOutput.e_failed:
         raise RuntimeError("e_failed")
-    if state == Box2D.b2TOIOutput.e_separated:
-        return None
-    time: float = share * span
-    return time
+    return time_of(state, share, question["span"])
+
+
+def impact_of(question: dict[str, Any]) -> Callable[[], tuple[int, float]]:
+    """The function that finds the state and the share of the span."""
+    import Box2D
+
+    a, b, span = question["a"], question["b"], question["span"]
+    given = {
+        "shapeA": shape_of(a),
+        "shapeB": shape_of(b),
+        "sweepA": sweep(a, span),
+        "sweepB": sweep(b, span),
+    }
+    return lambda: Box2D.b2TimeOfImpact(**given, tMax=1.0)
+
+
+def time_of(state: int, share: float, span: float) -> float | None:
+    """The time of a state and a share."""
+    import Box2D
+
+    return None if state == Box2D.b2TOIOutput.e_separated else share * span
 
 
 def shape_of(body: dict[str, Any]) -> Any:  # noqa: ANN401 - of Box2D

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 ABOUT: dict[str, Any] = {
@@ -41,9 +42,13 @@ def answer(question: dict[str, Any], way: str) -> float | None:
     high = float(times[hits[0]])
     if way == "steps" or hits[0] == 0:
         return high
-    low = float(times[hits[0] - 1])
+    return halved(float(times[hits[0] - 1]), high, lambda t: meeting(question, np.array([t]))[0])
+
+
+def halved(low: float, high: float, meets: Callable[[float], Any]) -> float:
+    """The time at which bodies meet, between one at which they do not and one at which they do."""
     while low < (middle := 0.5 * (low + high)) < high:
-        if meeting(question, np.array([middle]))[0]:
+        if meets(middle):
             high = middle
         else:
             low = middle
@@ -69,3 +74,39 @@ def geometries(body: dict[str, Any], times: Any) -> Any:  # noqa: ANN401 - array
     if at.shape[1] == 2 or not body["closed"]:
         return shapely.linestrings(at)
     return shapely.polygons(at)
+
+
+# Whole scenes
+
+
+def touching(outlines: list[Any], closed: list[bool], deforms: list[bool]) -> list[int]:
+    """The numbers of the geometries that intersect another one, or themselves if they deform.
+
+    Geometries are made by array functions, and pairs come from one query of an STRtree.
+    """
+    import numpy as np
+    import shapely
+
+    made: list[Any] = [None] * len(outlines)
+    kinds = [0 if len(o) == 1 else 2 if c else 1 for o, c in zip(outlines, closed, strict=True)]
+    for kind, make in enumerate((shapely.points, shapely.linestrings, shapely.linearrings)):
+        chosen = [k for k, other in enumerate(kinds) if other == kind]
+        if chosen:
+            parts = [outlines[k] for k in chosen]
+            owner = np.repeat(np.arange(len(parts), dtype=np.int32), list(map(len, parts)))
+            geometries = make(np.concatenate(parts), indices=owner)
+            geometries = shapely.polygons(geometries) if kind == 2 else geometries
+            for k, geometry in zip(chosen, geometries, strict=True):
+                made[k] = geometry
+    first, second = shapely.STRtree(made).query(made, predicate="intersects")
+    own = [k for k, one in enumerate(deforms) if one]
+    crossed = [k for k in own if not (shapely.is_valid(made[k]) and shapely.is_simple(made[k]))]
+    return sorted({*first[first != second].tolist(), *crossed})
+
+
+def triangles(outline: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
+    """The triangles of a constrained Delaunay triangulation of a polygon."""
+    import shapely
+
+    cut = shapely.constrained_delaunay_triangles(shapely.Polygon(outline))
+    return [list(triangle.exterior.coords)[:3] for triangle in cut.geoms]

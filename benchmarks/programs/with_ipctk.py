@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 ABOUT: dict[str, Any] = {
@@ -50,15 +51,19 @@ ABOUT: dict[str, Any] = {
 }  # fmt: skip
 
 
+OPTIONS = {
+    "tight inclusion": {
+        "tolerance": 1e-6,
+        "max_iterations": 10**5,
+        "conservative_rescaling": 1 - 1e-6,
+    },
+    "additive": {"max_iterations": 10**6, "conservative_rescaling": 0.9999},
+}
+
+
 def answer(question: dict[str, Any], way: str) -> float | None:
     """The least time of impact of a vertex and an edge."""
-    import ipctk
-
-    method = (
-        ipctk.TightInclusionCCD(1e-6, 10**5, 1 - 1e-6)
-        if way == "tight inclusion"
-        else ipctk.AdditiveCCD(10**6, 0.9999)
-    )
+    method = method_of(way, **OPTIONS[way])
     a, b = (ends(question[key], question["span"]) for key in "ab")
     least = None
     for points, others in ((a, b), (b, a)):
@@ -71,6 +76,16 @@ def answer(question: dict[str, Any], way: str) -> float | None:
                 if hit and (least is None or share < least):
                     least = share
     return None if least is None else least * question["span"]
+
+
+def method_of(way: str, **options: float) -> Any:  # noqa: ANN401 - of ipctk
+    """One of its methods, with options in place of its defaults."""
+    import ipctk
+
+    ipctk.set_logger_level(ipctk.LoggerLevel.off)
+    return {"tight inclusion": ipctk.TightInclusionCCD, "additive": ipctk.AdditiveCCD}[way](
+        **options
+    )
 
 
 def ends(body: dict[str, Any], span: float) -> list[tuple[Any, Any]]:
@@ -87,3 +102,48 @@ def edges_of(points: list[Any], *, closed: bool) -> list[tuple[int, ...]]:
     if n == 1:
         return [(0,)]
     return [(i, (i + 1) % n) for i in range(n if closed and n > 2 else n - 1)]
+
+
+# Whole scenes
+
+
+def mesh_of(places: Any, edges: Any, patches: Any) -> Any:  # noqa: ANN401 - of ipctk
+    """A mesh of vertices and edges; vertices of one patch do not collide."""
+    import ipctk
+
+    mesh = ipctk.CollisionMesh(places, edges)
+    mesh.can_collide = ipctk.make_vertex_patches_filter(patches)
+    return mesh
+
+
+def first_step(
+    mesh: Any,  # noqa: ANN401 - of ipctk
+    places: Callable[[int], Any],
+    method: Any,  # noqa: ANN401
+    pieces: int,
+) -> float | None:
+    """The first contact in linear pieces of motion, in pieces from the start; None if none.
+
+    In each piece the sweep-and-prune of ipctk finds candidates and the narrow phase a
+    collision-free step, on one thread, so that processor times can be compared.
+
+    Args:
+        mesh: see `mesh_of`.
+        places: from a number of pieces to the positions of all vertices after them.
+        method: see `method_of`.
+        pieces: number of pieces.
+    """
+    import ipctk
+
+    ipctk.set_num_threads(1)
+    here = places(0)
+    broad = ipctk.SweepAndPrune()
+    candidates = ipctk.Candidates()
+    for i in range(pieces):
+        there = places(i + 1)
+        candidates.build(mesh, here, there, 0.0, broad)
+        free: float = candidates.compute_collision_free_stepsize(mesh, here, there, 0.0, method)
+        if free < 1.0:
+            return i + free
+        here = there
+    return None

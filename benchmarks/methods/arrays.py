@@ -10,12 +10,9 @@ from typing import Any, Final
 import numpy as np
 
 from benchmarks.methods.method import Answer, Method, UnsuitableScene
+from exactpt import Body, Scene, Translation, first_contact
 from exactpt.arrays import first_contacts
-from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
 
 __all__ = ["ARRAYS", "FROM_ARRAYS"]
 
