@@ -15,12 +15,11 @@ import pytest
 from hypothesis import HealthCheck, settings
 from rotation import turn_of
 
+from exactpt import AlgebraicNumber, InputError
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
 from exactpt.cgal import CgalCheck, find_program
-from exactpt.errors import InputError
 from exactpt.kernel import filters
-from exactpt.kernel.algebraic import AlgebraicNumber
 
 settings.register_profile(
     "dev", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow]

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from array_help import Table, agrees, boxes, some_pairs, stars, ulps
 
-from exactpt import first_contact
+from exactpt import InputError, Scene, first_contact
 from exactpt.arrays import blocks, first_contacts
-from exactpt.errors import InputError
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 

@@ -5,14 +5,10 @@ import subprocess
 import sys
 
 import pytest
+from commands import code_of
 
-from exactpt import proof_check
-from exactpt.cli import main
-from exactpt.errors import InputError, printable
-from exactpt.exchange.files import read_shapes, write_shapes
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, InputError, Scene, Translation, proof_check, read_shapes, write_shapes
+from exactpt.errors import printable
 
 EVIL = {
     "escape": "a\x1b]0;owned\x07",
@@ -29,12 +25,6 @@ EVIL = {
 
 def is_harmless(text):
     return text.replace("\n", "").isprintable()
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as end:
-        main([str(a) for a in arguments])
-    return end.value.code
 
 
 @pytest.fixture(params=EVIL)

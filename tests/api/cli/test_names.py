@@ -3,20 +3,9 @@
 import json
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
-from exactpt.errors import InputError
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as end:
-        main(list(arguments))
-    return end.value.code
+from exactpt import Body, Bounce, InputError, Scene, Simulation, Translation
 
 
 @pytest.fixture

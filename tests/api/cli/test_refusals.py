@@ -3,8 +3,8 @@
 import json
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
 from exactpt.scene.scene import Scene
 
 BOX = [["0", "0"], ["2", "0"], ["2", "1"], ["0", "1"]]
@@ -83,10 +83,9 @@ def test_every_command_refuses_it_alike(tmp_path, monkeypatch, capsys, name):
     said = set()
     for command in COMMANDS:
         verb, *options = command.split()
-        with pytest.raises(SystemExit) as end:
-            main([verb, "scene.json", *options])
+        code = code_of(verb, "scene.json", *options)
         out, err = capsys.readouterr()
-        assert (end.value.code, out) == (2, ""), command
+        assert (code, out) == (2, ""), command
         said.add(err)
 
     assert len(said) == 1
@@ -121,11 +120,10 @@ def test_bad_calls(tmp_path, monkeypatch, capsys, command, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.json").write_text(scene(box()))
 
-    with pytest.raises(SystemExit) as end:
-        main(command.split())
+    code = code_of(*command.split())
 
     out, err = capsys.readouterr()
-    assert (end.value.code, out) == (2, "")
+    assert (code, out) == (2, "")
     assert err.startswith("exactpt: ")
     assert words in err
     assert len(err.splitlines()) == 1
@@ -143,17 +141,14 @@ def test_no_memory_is_one_line_and_no_bug(command, tmp_path, monkeypatch, capsys
 
     monkeypatch.setattr(Scene, "load", no_memory)
     name, *options = command.split()
-    with pytest.raises(SystemExit) as end:
-        main([name, "in.json", *options])
+    code = code_of(name, "in.json", *options)
     out, err = capsys.readouterr()
-    assert (end.value.code, out, err) == (4, "", "exactpt: memory limit exceeded\n")
+    assert (code, out, err) == (4, "", "exactpt: memory limit exceeded\n")
     assert [path.name for path in tmp_path.iterdir()] == ["in.json"]
 
 
 @pytest.mark.parametrize("word", ["x" * 100_000, "a " * 50_000])
 @pytest.mark.parametrize("place", [["collide", "{}"], ["{}"], ["collide", "a", "--at", "{}"]])
 def test_long_arguments_are_cut_in_messages(word, place, capsys):
-    with pytest.raises(SystemExit) as end:
-        main([part.format(word) for part in place])
-    assert end.value.code == 2
+    assert code_of(*[part.format(word) for part in place]) == 2
     assert len(capsys.readouterr().err) < 5200

@@ -7,26 +7,15 @@ import sys
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from commands import code_of, run
 from folding import every
 
 from exactpt import first_contact
-from exactpt.cli import cli, main
 from exactpt.testing import FAMILIES, make_question
 from exactpt.testing.oracle import Refusals, answers
 
 ROOT = Path(__file__).parents[3]
 STILL = {"vertices": [[0, 0]]}
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as ended:
-        main(list(map(str, arguments)))
-    return ended.value.code
 
 
 def asking():

@@ -8,12 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from exactpt.collision.detector import first_contact
+from exactpt import Body, Pieces, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Translation
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.start import TILINGS
 from fuzz.questions.all_pairs import first_contact_allpairs
 

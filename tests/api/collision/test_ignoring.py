@@ -2,15 +2,12 @@
 
 import pytest
 from click.testing import CliRunner
+from commands import code_of
 
-from exactpt.cli import cli, main
-from exactpt.collision.detector import first_contact
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Translation, first_contact
+from exactpt.cli import cli
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 
@@ -98,10 +95,7 @@ def test_of_a_body_among_others_that_ignore_each_other(family, seed):
 )
 def test_refusals(tmp_path, capsys, arguments, message):
     ROW.save(tmp_path / "row.json")
-    with pytest.raises(SystemExit) as left:
-        main(["collide", str(tmp_path / "row.json"), *arguments])
-
-    assert left.value.code == 2
+    assert code_of("collide", tmp_path / "row.json", *arguments) == 2
     assert message in capsys.readouterr().err
     with pytest.raises(InputError, match="a tiling watches all bodies"):
         first_contact(ROW, method="kinetic", ignoring=[["fast", "near"]])

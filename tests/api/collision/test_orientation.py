@@ -6,11 +6,10 @@ from random import Random
 import pytest
 
 import exactpt
-from exactpt import Body, Pieces, Rigid, Scene
+from exactpt import Body, Pieces, Rigid, Scene, onward
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
-from exactpt.simulation.motion_changes import onward
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.variants import VARIANTS, difference
 

@@ -1,12 +1,10 @@
-"""Contacts in the middle of chains that are straight for ever, on one body or on several."""
+"""Degenerate scenes: the battery, and contacts in the middle of chains that are straight."""
 
 import pytest
 
-from exactpt.collision.detector import first_contact
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Scene, Translation, first_contact
 from exactpt.tiling.start import TILINGS
+from fuzz.battery import BATTERY, play, table
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.variants import VARIANTS
 
@@ -80,3 +78,34 @@ def test_bug_a_straight_angle_of_one_body_ended_the_search_for_touches(name, var
             expected.kind,
             expected.pairs,
         )
+
+
+# The battery of degenerate scenes: every tiling against the reference and CGAL
+
+QUICK = ("row", "mirror", "polygons in step, corner")
+MAX_REBUILDS = 30
+
+
+@pytest.mark.long("row end to end", "row, closing in")
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name.startswith(QUICK) else pytest.param(name, marks=pytest.mark.slow)
+        for name in BATTERY
+    ],
+)
+def test_battery(name):
+    rows = list(play(name, cgal=False))
+
+    print("\n".join(table(rows)))  # noqa: T201 - shown with -s
+    assert [row.differences for row in rows] == [[]] * len(rows)
+    assert all(row.rebuilds <= MAX_REBUILDS for row in rows)
+
+
+@pytest.mark.cgal
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name, trial in BATTERY.items() if not trial.large])
+def test_battery_with_cgal(name, program):
+    for row in play(name):
+        assert row.differences == []
+        assert row.snapshots == 5 or row.contact.startswith("0 ")

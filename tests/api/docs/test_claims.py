@@ -14,9 +14,8 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, Rigid, Scene, Simulation, Translation, cli, first_contact
+from exactpt import AuditError, Body, Rigid, Scene, Simulation, Translation, cli, first_contact
 from exactpt.cli.runs import collide
-from exactpt.errors import AuditError
 from exactpt.motion import swept_edges
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs import search as straight_search

@@ -4,10 +4,9 @@ import json
 
 import pytest
 import shapely
+from commands import code_of
 
-from exactpt import Body, Scene, Translation, read_shapes, write_shapes
-from exactpt.cli import main
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Translation, read_shapes, write_shapes
 from exactpt.scene.generate import RINGS, generate
 
 LAND = [(0, 0), (9, 0), (9, 9), (0, 9)]
@@ -16,12 +15,6 @@ ISLE = [(3, 3), (5, 3), (3, 5)]
 FAR = [(20, 0), (22, 0), (20, 2)]
 WHOLE = Body("land", parts=[{"vertices": LAND, "holes": [LAKE]}, ISLE, FAR])
 TIE = "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))"
-
-
-def run(*arguments):
-    with pytest.raises(SystemExit) as end:
-        main([*map(str, arguments)])
-    return end.value.code or 0
 
 
 def places(body):
@@ -110,8 +103,8 @@ def test_repair_says_what_it_changes(tmp_path, capsys):
         "POLYGON ((30 0, 40 0, 40 9, 30 9, 30 0), (32 1, 36 1, 36 8, 32 8, 32 1), "
         f"(35 3, 38 3, 38 5, 35 5, 35 3))\n{TIE}\nPOLYGON ((60 0, 61 0, 60 1, 60 0))"
     )
-    assert run("convert", source, target) == 2
-    assert run("convert", source, target, "--repair") == 0
+    assert code_of("convert", source, target) == 2
+    assert code_of("convert", source, target, "--repair") == 0
     message = [line for line in capsys.readouterr().err.splitlines() if "repaired" in line]
     assert len(message) == 2
     assert "geometry 0: repaired 'body 0' (Self-intersection" in message[0]
@@ -127,10 +120,10 @@ def test_repair_says_what_it_changes(tmp_path, capsys):
 def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
     source, target = tmp_path / "a.wkt", tmp_path / "a.json"
     source.write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")
-    assert run("convert", source, target, "--repair") == 2
+    assert code_of("convert", source, target, "--repair") == 2
     assert "nothing of 'body 0' has an area" in capsys.readouterr().err
     source.write_text("LINESTRING (0 0, 2 0, 1 1, 1 -1)")
-    assert run("convert", source, target, "--repair") == 2
+    assert code_of("convert", source, target, "--repair") == 2
     assert "only polygons are repaired" in capsys.readouterr().err
 
 
@@ -149,15 +142,15 @@ def test_a_flat_hole_and_one_that_touches_the_outline(tmp_path, capsys, hole, op
     source, target = tmp_path / "a.wkt", tmp_path / "a.json"
     source.write_text(f"POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), {hole})")
 
-    assert run("convert", source, target, *options) == (2 if message else 0)
+    assert code_of("convert", source, target, *options) == (2 if message else 0)
     assert message is None or message in capsys.readouterr().err
 
 
 def test_the_command_has_the_choices(tmp_path):
     source, target = tmp_path / "a.geojson", tmp_path / "a.json"
     write_shapes(Scene([WHOLE]), source)
-    assert run("convert", source, target, "--quiet") == 0
+    assert code_of("convert", source, target, "--quiet") == 0
     assert len(Scene.load(target).bodies[0].rings) == 4
-    assert run("convert", source, target, "--quiet", "--holes", "fill", "--parts", "split") == 0
+    assert code_of("convert", source, target, "--quiet", "--holes", "fill", "--parts", "split") == 0
     assert [len(b.rings) for b in Scene.load(target).bodies] == [1, 1, 1]
-    assert run("convert", source, target, "--quiet", "--holes", "refuse") == 2
+    assert code_of("convert", source, target, "--quiet", "--holes", "refuse") == 2

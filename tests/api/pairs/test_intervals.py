@@ -4,8 +4,7 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation
-from exactpt.pairs.intervals import contact_intervals, contacts
+from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation, contact_intervals, contacts
 from exactpt.scene.generate import FAMILIES, generate
 from fuzz.questions import reference
 from fuzz.questions.scenes import meeting_scene

@@ -1,17 +1,11 @@
-"""`exactpt draw` and `exactpt demo` as a user meets them."""
+"""`exactpt draw` and `exactpt demo` as a user meets them; numbers of many digits."""
 
 import click
 import pytest
-from click.testing import CliRunner
+from commands import code_of, run
 from render_scenes import demo, small
 
-from exactpt.cli import cli, main
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
+from exactpt import Body, Scene, Simulation, Translation, first_contact
 
 
 @pytest.fixture
@@ -63,9 +57,7 @@ def test_draw(scene, at, ending):
 )
 def test_bad_calls(scene, monkeypatch, capsys, arguments, message):
     monkeypatch.chdir(scene.parent)
-    with pytest.raises(SystemExit) as left:
-        main(["draw", str(scene), *arguments])
-    assert left.value.code == 2
+    assert code_of("draw", scene, *arguments) == 2
     said = capsys.readouterr().err
     assert message in said
     assert said.count("\n") == 1
@@ -103,13 +95,34 @@ def test_the_demo_opens_a_browser(tmp_path, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(click, "launch", lambda place: opened.append(place) or 0)
     page = tmp_path / "demo.html"
-    with pytest.raises(SystemExit) as end:
-        main(["demo", "--open", "-o", str(page)])
-
-    assert end.value.code == 0
+    assert code_of("demo", "--open", "-o", page) == 0
     assert opened == [str(page)]
     monkeypatch.setattr(click, "launch", lambda _: 1)
-    with pytest.raises(SystemExit) as end:
-        main(["demo", "--open", "-o", str(page)])
-    assert end.value.code == 2
+    assert code_of("demo", "--open", "-o", page) == 2
     assert "no browser" in capsys.readouterr().err
+
+
+# Numbers of more digits than Python writes as a decimal number, in pictures and in words
+
+FAR = 10**5000 + 1
+
+
+@pytest.fixture
+def far():
+    ball = Body("ball", [(0, 0)], Translation([0, 1]))
+    return Scene([ball, Body("wall", [(FAR, -1), (FAR, 1)])], time=(0, 2 * FAR))
+
+
+def test_bug_a_contact_at_a_long_time_has_a_table(far):
+    assert "First contact at t ≈ " in first_contact(far)._repr_html_()
+
+
+def test_bug_a_scene_with_a_long_time_is_drawn(far, tmp_path):
+    far.draw(tmp_path / "contact.svg", at="contact")
+    far.draw(tmp_path / "film.html")
+    far.draw(tmp_path / "gap.svg", gap=("ball", "wall"))
+    simulation = Simulation(far, record=True)
+    list(simulation.run())
+    simulation.draw(tmp_path / "run.html")
+
+    assert len(list(tmp_path.iterdir())) == 4

@@ -11,9 +11,8 @@ import signal
 import sys
 
 import pytest
+from commands import code_of
 from folding import every
-
-from exactpt.cli import main
 
 VALID = {
     "exactpt": 1,
@@ -69,13 +68,12 @@ def run(tmp_path, capsys):
         old = signal.signal(signal.SIGALRM, hang)
         signal.alarm(20)
         try:
-            with pytest.raises(SystemExit) as exit_code:
-                main([*(arguments or ("collide",)), str(path), "--max-events", "50", *BUDGET])
+            code = code_of(*(arguments or ("collide",)), path, "--max-events", "50", *BUDGET)
         finally:
             signal.alarm(0)
             signal.signal(signal.SIGALRM, old)
         assert [p.name for p in tmp_path.iterdir()] == ["scene.json"], "something was written"
-        return exit_code.value.code, *capsys.readouterr(), path
+        return code, *capsys.readouterr(), path
 
     return run
 
@@ -285,9 +283,7 @@ def test_nothing_is_written_if_the_scene_is_refused(tmp_path, capsys, content):
     output.write_text("old")
 
     for arguments in (["tile", str(scene), "-o"], ["simulate", str(scene), "--events"]):
-        with pytest.raises(SystemExit) as exit_code:
-            main([*arguments, str(output)])
-        assert exit_code.value.code == 2
+        assert code_of(*arguments, output) == 2
 
     assert output.read_text() == "old"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["scene.json", "tiling.json"]
@@ -296,10 +292,7 @@ def test_nothing_is_written_if_the_scene_is_refused(tmp_path, capsys, content):
 
 @pytest.mark.parametrize("name", ["missing.json", ".", "a\nb.json", "x" * 300])
 def test_paths_that_cannot_be_read(tmp_path, capsys, name):
-    with pytest.raises(SystemExit) as exit_code:
-        main(["collide", str(tmp_path / name)])
-
-    assert exit_code.value.code == 2
+    assert code_of("collide", tmp_path / name) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 

@@ -8,9 +8,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import shapely
+from commands import code_of
 
 from exactpt import Body, InputError, Scene, Translation
-from exactpt.cli import main
 from exactpt.scene.generate import ROUNDED, generate
 
 PILL = {"name": "pill", "vertices": [["0", "0"], ["2", "0"]], "radius": "1/2"}
@@ -52,10 +52,7 @@ def test_no_radius_is_written_where_it_is_zero(zero):
 def test_what_is_no_radius_is_refused_in_one_line(tmp_path, capsys, radius, why):
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(data(radius=radius)))
-    with pytest.raises(SystemExit) as end:
-        main(["collide", str(path)])
-
-    assert end.value.code == 2
+    assert code_of("collide", path) == 2
     assert capsys.readouterr().err == f"exactpt: {path}: body 'pill': {why}\n"
 
 

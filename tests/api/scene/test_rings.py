@@ -5,8 +5,7 @@ import pickle
 
 import pytest
 
-from exactpt import Body, Scene, Translation
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Translation
 from exactpt.scene.format import loads
 from exactpt.scene.generate import RINGS, generate
 

@@ -1,5 +1,6 @@
 """Scenes from Python: validated when they are made, simple polygons by brute force."""
 
+import pickle
 from decimal import Decimal
 from fractions import Fraction
 from itertools import combinations
@@ -12,12 +13,8 @@ from oracles import exact
 from strategies import as_rational, fractions
 
 import exactpt
-from exactpt.errors import InputError
-from exactpt.kernel import AlgebraicNumber
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Translation
-from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
+from exactpt import AlgebraicNumber, Body, InputError, Pieces, Scene, Spin, Translation
+from exactpt.scene.generate import SPINNING, generate
 
 grid = st.tuples(st.integers(0, 3), st.integers(0, 3))
 
@@ -228,3 +225,16 @@ def test_one_argument_is_neither_two_names_nor_a_distance(count, one):
 
     with pytest.raises(InputError, match="two names of bodies are given, or none for all bodies"):
         exactpt.first_within(scene, one)
+
+
+# Families of bodies that turn at a constant rate
+
+
+@pytest.mark.parametrize("family", sorted(SPINNING))
+def test_they_turn_and_survive_files_and_pickles(family):
+    scene = generate(family, 4)
+
+    assert any(isinstance(body.motion, Spin) for body in scene.bodies)
+    assert Scene.from_json(scene.to_json()) == scene
+    assert pickle.loads(pickle.dumps(scene)) == scene
+    assert generate(family, 4) == scene != generate(family, 5)

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from exactpt import Bounce, Simulation
 from exactpt.scene.generate import generate
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
 
 GOLDEN = Path(__file__).parents[2] / "data" / "golden"
 SCENES = [

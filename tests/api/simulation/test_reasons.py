@@ -4,12 +4,9 @@ from random import Random
 
 import pytest
 
+from exactpt import Body, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import TILINGS
 
 

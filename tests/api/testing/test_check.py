@@ -1,17 +1,27 @@
-"""check: what is right passes, every planted mistake is found and becomes a small test."""
+"""Grading by `check`, and `assert_same_contact`."""
 
 import math
 import os
+import re
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from folding import every
 from toi_mistakes import MISTAKES, toi, wrong
 
-from exactpt.errors import InputError
-from exactpt.testing import FAMILIES, LINEAR, Question, check, make_question, truths
+from exactpt import Body, InputError, Scene, Translation, first_contact
+from exactpt.testing import (
+    FAMILIES,
+    LINEAR,
+    Question,
+    assert_same_contact,
+    check,
+    make_question,
+    truths,
+)
 from exactpt.testing.truth import truth_of
 
 ROOT = Path(__file__).parents[3]
@@ -232,3 +242,61 @@ def test_arrays_answer_all_questions_with_linear_motions(monkeypatch):
 def test_what_cannot_be_asked_is_refused(function, options, message):
     with pytest.raises(InputError, match=f"^{message}$"):
         check(function, **options)
+
+
+# assert_same_contact: missed, invented, early, late, or the wrong witness, in one line
+
+BOX = Body("box", [(0, 0), (2, 0), (2, 1), (0, 1)], Translation([0, 1]))
+WALL = Body("wall", [(4, -5), (5, -5), (5, 5), (4, 5)])
+HIT = Scene([BOX, WALL], (0, 10))
+MISS = Scene([BOX, WALL], (0, 1))
+SURD = Scene([Body("p", [(0, 0)], Translation([0, 0, 1])), Body("s", [(2, -1), (2, 1)])], (0, 2))
+TRUTH = "the truth is a contact at t = 2 (vertex-edge): vertex 1 of box and edge 3 of wall, "
+
+
+@pytest.mark.parametrize("answer", [2, 2.0, Fraction(2), "2", 2 + 1e-10])
+def test_what_is_right_passes(answer):
+    assert_same_contact(HIT, answer)
+
+
+def test_contacts_pass_and_their_json():
+    contact = first_contact(HIT)
+
+    assert_same_contact(HIT, contact)
+    assert_same_contact(HIT, contact.to_json())
+    assert_same_contact(HIT, contact.time)
+    assert_same_contact(SURD, first_contact(SURD).time)
+    assert_same_contact(MISS, None)
+
+
+@pytest.mark.parametrize(
+    "scene, answer, says",
+    [
+        (HIT, None, f"missed: the answer is no contact; {TRUTH}"),
+        (MISS, 0.5, "invented: the answer is a contact at t = 0.5; the truth is no contact"),
+        (HIT, 1.5, f"early: the answer is a contact at t = 1.5; {TRUTH}"),
+        (HIT, 2.5, f"late: the answer is a contact at t = 2.5; {TRUTH}"),
+        (SURD, 1.5, "t = 1.4142135623730951, a root of [-2, 0, 1] (vertex-edge): vertex 0 of p"),
+    ],
+)
+def test_what_is_wrong_is_one_line(scene, answer, says):
+    with pytest.raises(AssertionError, match=re.escape(says)) as raised:
+        assert_same_contact(scene, answer)
+
+    assert "\n" not in str(raised.value)
+
+
+def test_a_wrong_witness():
+    wrong = {
+        "time": 2,
+        "pairs": [{"a": {"body": "box", "vertex": 0}, "b": {"body": "wall", "edge": 3}}],
+    }
+
+    with pytest.raises(AssertionError, match="wrong witness: vertex 0 of box and edge 3 of wall"):
+        assert_same_contact(HIT, wrong)
+
+
+@pytest.mark.parametrize("answer", [float("nan"), "soon", {"time": []}, {"time": 2, "pairs": 3}])
+def test_what_is_no_answer_is_refused(answer):
+    with pytest.raises(InputError, match="not "):
+        assert_same_contact(HIT, answer)

@@ -8,13 +8,10 @@ from pathlib import Path
 import pytest
 from render_scenes import demo, small
 
+from exactpt import AlgebraicNumber, Body, Bounce, Scene, Simulation, Translation, clearance
 from exactpt.certificates.one_sided import OneSided
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
@@ -23,9 +20,6 @@ from exactpt.render.page import page_of
 from exactpt.render.palette import body_colour
 from exactpt.render.still import still
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.browser
 

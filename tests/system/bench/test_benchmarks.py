@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 from bench_help import Results, meeting
 from click.testing import CliRunner
+from commands import code_of
 
 from benchmarks import (
     arithmetic,
@@ -40,11 +41,8 @@ from benchmarks.methods.method import Method
 from benchmarks.number_types import ARITHMETICS
 from benchmarks.planted import FAMILIES as PLANTED
 from benchmarks.planted import Planted
-from exactpt.cli import cli, main
-from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
+from exactpt import AlgebraicNumber, AuditError, Body, Scene
+from exactpt.cli import cli
 
 NO_PEERS = ("shapely", "pymunk", "ipctk", "Box2D", "flint", "sympy", "mpmath", "matplotlib")
 
@@ -305,9 +303,7 @@ def test_all_run_if_none_is_named(tmp_path, one_benchmark):
 
 @pytest.mark.parametrize("arguments, word", [(["nothing"], "nothing"), (["kernel", "-o"], "-o")])
 def test_a_bad_call_is_one_line(arguments, word, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["bench", *arguments])
-    assert stop.value.code == 2
+    assert code_of("bench", *arguments) == 2
     said = capsys.readouterr().err.splitlines()
     assert len(said) == 1
     assert said[0].startswith("exactpt: ")
@@ -316,9 +312,7 @@ def test_a_bad_call_is_one_line(arguments, word, capsys):
 
 def test_a_folder_that_is_a_file_is_refused(tmp_path, capsys):
     (tmp_path / "file").write_text("")
-    with pytest.raises(SystemExit) as stop:
-        main(["bench", "kernel", "-o", str(tmp_path / "file")])
-    assert stop.value.code == 2
+    assert code_of("bench", "kernel", "-o", tmp_path / "file") == 2
     assert capsys.readouterr().err.count("\n") == 1
 
 
@@ -499,7 +493,5 @@ def test_exponents_above_a_limit_are_an_exit_code(monkeypatch, tmp_path, capsys)
     monkeypatch.setattr("benchmarks.catalogue.import_module", lambda _: module)
     for limit, code in (("1.3", 1), ("3", 0)):
         command = ["bench", "exponents", "-o", str(tmp_path), "--fail-above", limit]
-        with pytest.raises(SystemExit) as end:
-            main(command)
-        assert end.value.code == code
+        assert code_of(*command) == code
     assert capsys.readouterr().err == "exponents above 1.3: slow\n"

@@ -7,10 +7,9 @@ from itertools import product
 import pytest
 import sympy
 
+from exactpt import AlgebraicNumber, InputError
 from exactpt.cgal import IsolatedRoot, Signs
-from exactpt.errors import InputError
 from exactpt.geometry.predicates import orientation
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import multiply, trimmed
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after

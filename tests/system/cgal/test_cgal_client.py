@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 from cgal_tilings import as_tile, cyclic_pairs, random_map, random_tiling
 
-from exactpt import cgal
+from exactpt import AuditError, Body, InputError, Scene, cgal
 from exactpt.cgal import (
     BodyShape,
     CgalCheck,
@@ -22,10 +22,7 @@ from exactpt.cgal import (
 )
 from exactpt.cgal.build import sources
 from exactpt.cgal.client import recognise
-from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
 
 pytestmark = pytest.mark.cgal
 

@@ -1,4 +1,4 @@
-"""The witness is tested by damage: every damaged tile is rejected, every undamaged one is not."""
+"""CGAL on tilings: damaged ones, those of points, and those of bodies with holes and parts."""
 
 import random
 from collections import Counter
@@ -7,6 +7,14 @@ from fractions import Fraction
 import pytest
 from cgal_damage import KINDS
 from cgal_tilings import as_tile, random_map, random_tiling
+
+from exactpt import Simulation
+from exactpt.cgal import BodyShape, CgalCheck
+from exactpt.check import check_scene
+from exactpt.pairs.start import initial_touches
+from exactpt.scene.generate import POINTS, RINGS, generate
+from exactpt.simulation.tile import tile_at
+from exactpt.tiling.start import TILINGS
 
 pytestmark = pytest.mark.cgal
 
@@ -115,3 +123,68 @@ def test_damaged_tiles_are_rejected(witness, tiles, table, kind):
     accepted = [mutant for mutant, v in zip(mutants, plain, strict=True) if v.ok]
     assert accepted == []
     assert [v.reason for v in deep if v.ok or "no objection" in v.reason] == []
+
+
+# CGAL on the incremental pseudo-triangulation and the fan triangulation of moving points
+
+
+@pytest.mark.parametrize("family", sorted(POINTS))
+def test_cgal_agrees_all_along(family):
+    """Every tiling between two events, and every event time."""
+    tilings = 0
+    for seed in range(12):
+        report = check_scene(generate(family, seed), tiling="incremental")
+        assert report.ok, report.lines()
+        tilings += report.tilings
+    assert tilings > 24
+
+
+@pytest.mark.parametrize("family", sorted(POINTS))
+def test_fan_triangulation(witness, family):
+    """At the end of the run, and built there: equal, and triangles all."""
+    for seed in range(12):
+        scene = generate(family, seed)
+        simulation = Simulation(scene, tiling="incremental")
+        if initial_touches(scene)[1] or simulation.run_to_contact() is not None:
+            continue
+        tile = simulation.snapshot().to_json()
+        assert tile == tile_at(scene, scene.end, tiling="incremental").to_json()
+        verdict = witness.check_triangulation(tile, BodyShape.of_scene(scene))
+        assert verdict.ok, verdict.reason
+
+
+# CGAL on tilings of bodies with holes and parts
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.parametrize("family", sorted(RINGS))
+def test_runs_are_verified(family, tiling):
+    """Proof, tilings, event times, and the search over pairs."""
+    tilings = 0
+    for seed in range(4):
+        report = check_scene(generate(family, seed), tiling=tiling)
+        assert report.ok, (seed, report.lines())
+        tilings += report.tilings
+    assert tilings > 4
+
+
+@pytest.mark.parametrize("family", sorted(RINGS))
+def test_both_witnesses_agree(family):
+    with CgalCheck() as witness:
+        for seed in range(6):
+            scene = generate(family, seed)
+            if initial_touches(scene)[1]:
+                continue
+            tile = Simulation(scene).tiling.to_json()
+            shapes = BodyShape.of_scene(scene)
+            verdict = witness.check_tiling(tile, shapes, deep=True)
+            assert verdict.ok, (seed, verdict.reason)
+            assert verdict.stats["polygons"] == sum(
+                len(body.parts) for body in scene.bodies if body.has_interior
+            )
+            swapped = [  # the outline of each part for the last of its holes
+                shape._replace(parts=[part[::-1] for part in shape.parts]) for shape in shapes
+            ]
+            if any(shape.parts for shape in swapped):
+                reported = witness.check_tiling(tile, swapped).reason
+                assert "is clockwise" in reported or "is not one region" in reported

@@ -7,13 +7,10 @@ from random import Random
 
 import pytest
 
-from exactpt import proof_check
+from exactpt import BudgetExceeded, InputError, Scene, proof_check, prove
 from exactpt.cgal import check_proof
 from exactpt.check import check_scene
-from exactpt.errors import BudgetExceeded, InputError
-from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
-from exactpt.scene.scene import Scene
 from fuzz import corpus
 
 pytestmark = pytest.mark.cgal

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
 from exactpt.files import write_atomically
 from exactpt.scene.generate import generate
 from exactpt.scene.written import save
@@ -27,12 +27,6 @@ def scene(tmp_path):
 def run(*arguments, **streams):
     command = [sys.executable, "-c", "from exactpt.cli import main; main()", *map(str, arguments)]
     return subprocess.run(command, check=False, text=True, **streams)
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as left:
-        main([str(a) for a in arguments])
-    return left.value.code
 
 
 @pytest.mark.parametrize("command", [("generate", "convex"), ("collide", "--json")])

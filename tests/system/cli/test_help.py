@@ -6,10 +6,11 @@ from importlib.resources import files
 
 import click
 import pytest
+from commands import code_of
 from folding import every
 
 from exactpt import Scene, Simulation, first_contact
-from exactpt.cli import all_commands, cli, main
+from exactpt.cli import all_commands, cli
 
 QUESTION = (
     '{"id": "sliding:0:0", "time": [0, 9], "a": {"vertices": [[0, 0]]},'
@@ -77,8 +78,7 @@ def test_an_example_runs(line, tmp_path, monkeypatch, request):
     if line == "exactpt check answer.apart":
         first_contact(Scene.load("scene.json"), certificate=tmp_path / "answer.apart")
 
-    with pytest.raises(SystemExit) as left:
-        main(shlex.split(line)[1:])
+    code = code_of(*shlex.split(line)[1:])
 
     allowed = {0, 1} if " judge " in line else {4 if "--max-events" in line else 0}
-    assert left.value.code in allowed
+    assert code in allowed

@@ -7,12 +7,11 @@ import threading
 from pathlib import Path
 
 import pytest
+from commands import code_of
 from terminals import Bar, Terminal
 
-from exactpt.cli import cli, main
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
+from exactpt import Body, Scene, Translation
+from exactpt.cli import cli
 
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 
@@ -54,9 +53,8 @@ def test_a_command_in_a_thread(tmp_path, monkeypatch, command):
     ended = []
 
     def work():
-        with pytest.raises(SystemExit) as end:
-            main([verb, "scene.json", *target, *options, "--max-seconds", "100"])
-        ended.append(end.value.code)
+        code = code_of(verb, "scene.json", *target, *options, "--max-seconds", "100")
+        ended.append(code)
 
     thread = threading.Thread(target=work)
     thread.start()

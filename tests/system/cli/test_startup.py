@@ -1,9 +1,13 @@
-"""Nothing is paid for that is not used."""
+"""Processes of commands: what they import, PYTHONOPTIMIZE, signals to workers."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 from exactpt import Body, Scene, Translation
 
@@ -60,3 +64,87 @@ def test_collide_of_two_straight_bodies_imports_neither_numpy_nor_most_of_the_pa
     assert status == "0"
     assert "numpy" not in modules
     assert len([name for name in modules if name.split(".")[0] == "exactpt"]) <= 50
+
+
+# PYTHONOPTIMIZE, which removes assertions (1) and docstrings (2), changes no answer
+
+
+def run(level, folder, *arguments):
+    done = subprocess.run(
+        [sys.executable, "-m", "exactpt", *arguments],
+        cwd=folder,
+        env={**os.environ, "PYTHONOPTIMIZE": level},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("plain")
+    return run("", folder, "demo"), (folder / "exactpt-demo.html").read_bytes()
+
+
+@pytest.mark.parametrize("level", ["1", "2"])
+def test_the_demo_is_the_same(level, plain, tmp_path):
+    done = run(level, tmp_path, "demo")
+
+    assert done[0] == 0
+    assert (done, (tmp_path / "exactpt-demo.html").read_bytes()) == plain
+
+
+@pytest.mark.parametrize("level", ["1", "2"])
+def test_a_bad_scene_is_refused_in_one_line(level, tmp_path):
+    (tmp_path / "bad.json").write_text('{"bodies": [{"outer": [[0, "x"]]}]}')
+
+    status, out, said = run(level, tmp_path, "collide", "bad.json")
+
+    assert (status, out, said.count("\n")) == (2, "", 1)
+
+
+def test_help_without_docstrings_has_the_options(tmp_path):
+    assert "--tiling" in run("2", tmp_path, "collide", "--help")[1]
+
+
+def test_a_set_whose_readme_would_lack_its_descriptions_is_refused(tmp_path):
+    """The README said "None" of each family."""
+    status, out, said = run(
+        "2", tmp_path, "questions", "--set", "set", "--questions", "0", "--scenes", "0"
+    )
+
+    assert (status, out) == (2, "")
+    assert said == (
+        "exactpt: PYTHONOPTIMIZE=2 removes the descriptions that the README of a set quotes\n"
+    )
+    assert not (tmp_path / "set").exists()
+
+
+# Workers never receive Ctrl-C, not even while they import what they need
+
+PROGRAM = """
+import signal
+from exactpt.workers.processes import results_of
+from exactpt.workers.work import Work
+
+def job(item, tell):
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+def lost(item, step, why):
+    return why
+
+if __name__ == "__main__":
+    print(list(results_of(Work(job, lost), iter([1, 2]), 2)))
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="Windows has no masks")
+def test_bug_the_first_worker_blocks_interrupts_from_its_start(tmp_path):
+    """Python's tracker of resources, started with the first worker, cleared the mask."""
+    program = tmp_path / "masks.py"
+    program.write_text(PROGRAM)
+    done = subprocess.run(
+        [sys.executable, program], env=os.environ, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[True, True]"

@@ -8,8 +8,8 @@ import sys
 from fractions import Fraction
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
 from exactpt.cli.alarm import time_limit
 from exactpt.errors import BudgetExceeded
 from exactpt.pairs import features_sweep as pairs
@@ -51,9 +51,7 @@ def scene(tmp_path, monkeypatch):
 
 def run(name, scene, seconds):
     command, *options = COMMANDS[name]
-    with pytest.raises(SystemExit) as end:
-        main([command, str(scene), *options, "--max-seconds", str(seconds)])
-    return end.value.code
+    return code_of(command, scene, *options, "--max-seconds", seconds)
 
 
 def left_behind(folder):

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
 from exactpt.files import write_atomically, writing
 from exactpt.scene.generate import generate
 from exactpt.scene.written import save
@@ -48,12 +48,6 @@ def folder(tmp_path, monkeypatch):
 
 def command(*arguments, code=MAIN):
     return [sys.executable, "-c", code, *arguments]
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as left:
-        main(list(arguments))
-    return left.value.code
 
 
 def there(folder):

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from exactpt.errors import InputError
+from exactpt import InputError, Scene
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.start import tilings_for
 from fuzz import corpus
 from fuzz.__main__ import FAMILIES as FUZZED

@@ -8,14 +8,14 @@ from random import Random
 import pytest
 from click.testing import CliRunner
 
-from exactpt import proof_check, prove
-from exactpt.errors import AuditError
+import exactpt
+from exactpt import AuditError, Scene, check_apart, proof_check, prove
 from exactpt.scene.generate import generate
 from fuzz.campaign import Progress, campaign
-from fuzz.proofs import both, checking
+from fuzz.proofs import apart, both, checking
 from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
-from fuzz.proofs.command import proof_both, proof_mutants
+from fuzz.proofs.command import certificates, proof_both, proof_mutants
 from fuzz.proofs.run import KINDS, Mutant, Mutants, is_true, mutants
 from fuzz.small_scope.look import looks_at_proofs
 from fuzz.small_scope.scope import planned
@@ -197,3 +197,48 @@ def test_bug_a_line_that_a_damage_had_emptied_ended_the_campaign():
     random = Random(0)
     for _ in range(400):  # every damage of a line without words
         assert both._lines(["exactpt-proof 1", "scene", "span 0 1", "", ""], random)
+
+
+# The campaign of certificates: right ones are accepted, wrong ones rejected, or true
+
+
+def run(folder, count, start=0):
+    words = ["--cases", count, "--start", start, "--jobs", 0, "--keep", folder / "found"]
+    return CliRunner().invoke(certificates, list(map(str, words)))
+
+
+def test_a_few_families(tmp_path):
+    done = run(tmp_path, 3, start=4)
+    assert done.exit_code == 0, done.output
+    assert "a node left out: " in done.output
+    assert "3 cases in" in done.output
+
+
+@pytest.mark.parametrize("check", ["check_apart", "check_outside"])
+def test_a_checker_without_a_check_is_found(tmp_path, monkeypatch, check):
+    monkeypatch.setattr(check_apart.Checker, check, lambda _: None)
+    numbers = {"check_apart": 4, "check_outside": 8}
+    if check == "check_outside":  # a point inside a body from the start on
+        inner = exactpt.Body("b", [(1, 1)])
+        scene = exactpt.Scene([exactpt.Body("a", [(0, 0), (3, 0), (0, 3)]), inner], time=(0, 1))
+        monkeypatch.setattr(apart, "generate", lambda *_: scene)
+        monkeypatch.setattr(apart, "first_contact", lambda *_, **__: None)
+    done = run(tmp_path, 1, start=numbers[check])
+    assert done.exit_code == 1, done.output
+    assert list((tmp_path / "found").iterdir())
+
+
+def test_truth_by_all_pairs():
+    box = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    fast = exactpt.Body("b", [(x + 5, y) for x, y in box], exactpt.Translation([0, -1]))
+    scene = exactpt.Scene([exactpt.Body("a", box), fast], time=(0, 8))
+    made = Scene.from_json(json.loads(exactpt.certify(scene).scene))
+    lines = ["exactpt-apart 1", "scene sha256 0", "span 0 3"]
+    assert apart.is_true(made, [*lines, "none"])
+    assert apart.is_true(made, [*lines, "distance 1/2", "none"])
+    assert not apart.is_true(made, [*lines, "distance 2", "none"])
+    assert apart.is_true(made, [*lines, "meet 4 0 0"])
+    assert not apart.is_true(made, [*lines, "meet 7/2 0 0"])
+    assert not apart.is_true(made, [*lines[:2], "span 0 5", "none"])
+    assert apart.is_true(made, [*lines[:2], "span 0 5", "between 0 0", "none"])
+    assert apart.is_true(made, [*lines[:2], "span 0 5", "ignoring 0 1", "none"])

@@ -7,8 +7,7 @@ import shapely
 from click.testing import CliRunner
 from folding import every
 
-from exactpt import Body, Scene
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Body, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.clearance import Minimum
 from fuzz.questions import by_cgal, checks

@@ -12,14 +12,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from exactpt import Body, InputError, Scene
 from exactpt.arrays import first_contacts
-from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.format import loads
-from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign

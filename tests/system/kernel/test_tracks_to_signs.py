@@ -10,11 +10,10 @@ from collections import Counter
 import pytest
 from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
+from exactpt import AlgebraicNumber, Polynomial
 from exactpt.certificates import coefficients
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import primitive
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
-from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.incidence import difference, orientation_polynomial

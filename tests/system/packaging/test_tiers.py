@@ -1,13 +1,20 @@
-"""What the tiers of the tests stand on: cases in a loop, budgets, and a case for every package."""
+"""Tiers of the tests, turns of the slow ones, and the worth of the quick ones."""
 
+import ast
 import os
 import re
 import subprocess
 import sys
+from collections import Counter
+from datetime import date, timedelta
 from pathlib import Path
+from random import Random
 
 import pytest
 from folding import every
+from rotation import DAYS, parts, seconds_of, turn_of
+
+from fuzz.quick_worth import _changes, _exchange, mutants, planted
 
 ROOT = Path(__file__).parents[3]
 QUICK = ("unit", "api")
@@ -98,3 +105,118 @@ def test_tests_are_in_tiers_and_what_they_share_is_in_one_folder():
     assert {path.parts[0] for path in set(files) - set(tests)} == {
         "conftest.py", "rotation.py", "helpers",
     }  # fmt: skip
+
+
+# The slow tests take turns: each of them within any fortnight, in parts of about equal time
+
+
+class Item:
+    def __init__(self, nodeid, group=None):
+        self.nodeid = nodeid
+        self.group = group
+
+    def get_closest_marker(self, _):
+        return pytest.mark.xdist_group(self.group).mark if self.group else None
+
+
+def collected(*options):
+    """The slow tests that pytest selects."""
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", "-m", "slow", *options]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return [line for line in listed.splitlines() if "::" in line]
+
+
+def fortnight(first):
+    return [first + timedelta(days) for days in range(DAYS)]
+
+
+@pytest.mark.parametrize("first", [date(2026, 11, 22), date(2027, 12, 25)])
+def test_every_test_has_its_turn_within_a_fortnight(first):
+    items = [Item(f"test_{i}", group="one" if i % 10 == 0 else None) for i in range(200)]
+
+    turns = [turn_of(items, day) for day in fortnight(first)]
+
+    assert Counter(item.nodeid for turn in turns for item in turn) == Counter(
+        item.nodeid for item in items
+    )
+    assert [len({item.group for item in turn} & {"one"}) for turn in turns].count(1) == 1
+
+
+def test_a_part_has_at_most_one_test_more_than_its_share():
+    seconds = {f"{i}": Random(i).expovariate(0.1) for i in range(500)}
+
+    sums = [sum(map(seconds.get, part)) for part in parts(seconds)]
+
+    assert max(sums) <= sum(seconds.values()) / DAYS + max(seconds.values())
+
+
+def test_the_slow_tests_that_exist_take_at_most_five_minutes_on_two_cores_a_day():
+    """By the seconds that are written down; a test that is not in the list counts a minute."""
+    items = [Item(nodeid) for nodeid in collected()]
+    today = date(2026, 11, 22)
+
+    turns = [turn_of(items, day) for day in fortnight(today)]
+
+    assert len(items) > 400
+    assert {item.nodeid for turn in turns for item in turn} == {item.nodeid for item in items}
+    assert max(sum(seconds_of(item.nodeid) for item in turn) for turn in turns) < 2 * 300 - 60
+
+
+def test_pytest_selects_the_tests_whose_turn_it_is():
+    file = "tests/unit/kernel/test_hard_roots.py"
+    today = date(2026, 11, 22)
+
+    selected = collected(file, "--rotating", str(today))
+
+    assert selected == [i.nodeid for i in turn_of([Item(n) for n in collected(file)], today)]
+    assert len(selected) > 5
+
+
+# Mutants for the worth of the quick tier: what is changed, and how
+
+SOURCE = """
+def least(values, most):
+    found: int = 7
+    for k, value in enumerate(values):
+        if value < found and k != most:
+            found = value + 1
+    if found > 9:
+        raise ValueError(f"{found} > 9")
+    return found
+"""
+
+
+def changed(k):
+    tree = ast.parse(SOURCE)
+    text = _changes(tree.body[0])[k]()
+    return text, ast.unparse(tree)
+
+
+def test_each_change_is_of_one_place_and_of_no_message_or_annotation():
+    number = len(_changes(ast.parse(SOURCE).body[0]))
+    found = dict(changed(k) for k in range(number))
+
+    assert set(found) == {
+        "7 -> 8", "1 -> 2", "9 -> 10", "value + 1 -> value - 1", "found > 9 -> found >= 9",
+        "value < found -> value <= found", "k != most -> k == most", "if not found > 9",
+        "if not (value < found and k != most)",
+        "value < found and k != most -> value < found or k != most",
+    }  # fmt: skip
+    plain = ast.unparse(ast.parse(SOURCE))
+    assert len(set(found.values()) | {plain}) == number + 1
+
+
+def test_a_mutant_is_another_code_of_a_function_of_the_package():
+    for fault in mutants(5, 1):
+        assert fault.make.func is _exchange
+        function, code = fault.make.args
+        assert function.__module__ == fault.module
+        assert function.__code__.co_name == code.co_name
+        assert function.__code__ != code
+    assert [fault.name for fault in mutants(5, 1)] == [fault.name for fault in mutants(5, 1)]
+
+
+def test_each_planted_mistake_is_a_fault():
+    assert {"planted: events dropped", "planted: swept boxes too small"} <= {
+        fault.name for fault in planted()
+    }

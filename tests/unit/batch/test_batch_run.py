@@ -9,13 +9,13 @@ import sys
 import time
 
 import pytest
+from commands import code_of
 from scenes_of_two import generic_lines, nearly_degenerate
 
 import exactpt
 from exactpt.batch import Options, answers, run
 from exactpt.batch.chunks import Chunk, answered, one_by_one
 from exactpt.batch.lines import Lines
-from exactpt.cli import main
 from exactpt.errors import InputError
 from exactpt.scene.generate import generate
 from exactpt.workers import processes
@@ -348,10 +348,7 @@ def test_any_options_of_one_scene(tmp_path, given, monkeypatch, capsys):
     lines = generic_lines(6, seed=1)
     (tmp_path / "scenes.jsonl").write_text("\n".join(lines))
 
-    with pytest.raises(SystemExit) as left:
-        main(["batch", "scenes.jsonl", "-o", "answers.jsonl", *given.split()])
-
-    assert left.value.code == 0
+    assert code_of("batch", "scenes.jsonl", "-o", "answers.jsonl", *given.split()) == 0
     assert (tmp_path / "answers.jsonl").read_text() == expected(lines, options)
     reported = [
         json.loads(line)[key] for line in (tmp_path / "answers.jsonl").read_text().splitlines()
@@ -359,18 +356,14 @@ def test_any_options_of_one_scene(tmp_path, given, monkeypatch, capsys):
     (tmp_path / "one.json").write_text(lines[0])
     if key != "approach":
         asked = given.replace("--until 3 --since 1", "--since 1 --until 3").split()
-        with pytest.raises(SystemExit):
-            main(["collide", "one.json", "--json", *asked])
+        code_of("collide", "one.json", "--json", *asked)
         assert json.loads(capsys.readouterr().out)[key] == reported[0]
 
 
 def test_the_command_counts_failures(scenes, tmp_path, capsys):
     out = tmp_path / "answers.jsonl"
 
-    with pytest.raises(SystemExit) as left:
-        main(["batch", str(scenes), "-o", str(out), "--quiet"])
-
-    assert left.value.code == 2
+    assert code_of("batch", scenes, "-o", out, "--quiet") == 2
     assert out.read_text() == EXPECTED
     (reported,) = capsys.readouterr().err.splitlines()
     assert reported.startswith(

@@ -2,6 +2,7 @@
 
 import pytest
 
+from exactpt import Body, Rigid, Translation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.coincidence import (
     coincide,
@@ -12,8 +13,6 @@ from exactpt.certificates.coincidence import (
     strictly_between,
 )
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.vertices import Vertices
 
 DIRECTIONS = [(1, 0), (0, 1), (1, 2), (-1, 0), (0, -1), (-2, 1)]

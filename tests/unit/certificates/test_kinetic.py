@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exactpt import InputError
+from exactpt import AlgebraicNumber, InputError, Polynomial
 from exactpt.certificates import CertificateQueue, orientation, squared_distance, x_order
-from exactpt.kernel import AlgebraicNumber, Polynomial
 
 PAGE = Path(__file__).parents[3] / "docs" / "howto" / "kinetic.md"
 t = Polynomial([0, 1])

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from exactpt import Body, Scene, Translation, first_contact
+from exactpt import Body, BudgetExceeded, Scene, Translation, first_contact
 from exactpt.collision.driver import CHANGES, EVENTS, NOTHING, TIMES, Driver, Observer
-from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import Budget
 from exactpt.scene.generate import generate
 from exactpt.tiling.tiling import Tiling

@@ -6,15 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from exactpt import Body, Scene, Translation, contacts, first_contact, first_within
 from exactpt.arrays import first_contacts
 from exactpt.certificates.coincidence import boxes_now
-from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.pairs.approach import first_within
-from exactpt.pairs.intervals import contacts
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 

@@ -5,16 +5,13 @@ from random import Random
 import pytest
 
 from benchmarks.everyday import EVERYDAY
-from exactpt.collision.detector import first_contact
+from exactpt import Body, Scene, Translation, first_contact
 from exactpt.collision.searches import searches_pairs
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion import swept_edges
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.pairs import boxes as row_boxes
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 

@@ -4,8 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from exactpt import Body, Planner, Rigid, Scene, Translation, first_contact
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Planner, Rigid, Scene, Translation, first_contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.scene.generate import RINGS, generate
 from exactpt.tiling.start import TILINGS

@@ -6,19 +6,15 @@ from random import Random
 
 import pytest
 
-from exactpt.collision.detector import first_contact
+from exactpt import Body, Contact, Pieces, Rigid, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Rigid, Translation
 from exactpt.motion.outline import far_origin
 from exactpt.pairs import boxes as row_boxes
 from exactpt.pairs import incidences, pieces
 from exactpt.pairs import search as straight_search
-from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.generate import FAMILIES, POINTS, generate
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]

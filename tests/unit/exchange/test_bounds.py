@@ -7,25 +7,21 @@ import sys
 import tracemalloc
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
+from exactpt import InputError, Scene, read_shapes
 from exactpt.cli.alarm import GRACE
-from exactpt.errors import InputError
 from exactpt.exchange import bodies, shapes, svg
 from exactpt.exchange.drawing import read_drawing
-from exactpt.exchange.files import read_shapes
 from exactpt.files import read_bytes
 from exactpt.pairs import start as initial
-from exactpt.scene.scene import Scene
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg">'
 OUTLINE = '<path d="M0 0h1v1z"/>'
 
 
 def convert(source, *options):
-    with pytest.raises(SystemExit) as end:
-        main(["convert", str(source), str(source.with_name("out.json")), *options])
-    return end.value.code
+    return code_of("convert", source, source.with_name("out.json"), *options)
 
 
 @pytest.fixture
@@ -192,10 +188,9 @@ def test_all_in_one_place(tmp_path, capsys, monkeypatch, command):
     assert convert(source) == 0
     reported = capsys.readouterr()
     if command == "collide":
-        with pytest.raises(SystemExit) as end:
-            main(["collide", str(source.with_name("out.json"))])
+        code = code_of("collide", source.with_name("out.json"))
         reported = capsys.readouterr()
-        assert (end.value.code, reported.out) == (2, "")
+        assert (code, reported.out) == (2, "")
 
     assert reported.err.endswith("more than 1000 pairs of bodies share a point at the start\n")
 
@@ -214,12 +209,6 @@ COMMANDS = {
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def code_of(*arguments):
-    with pytest.raises(SystemExit) as end:
-        main(list(arguments))
-    return end.value.code
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -3,16 +3,12 @@
 import json
 
 import pytest
-from click.testing import CliRunner
+from commands import code_of, run
 
-from exactpt.cli import cli, main
-from exactpt.errors import BudgetExceeded
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
+from exactpt import Body, BudgetExceeded, Scene, Translation
 from exactpt.pairs import start as initial
 from exactpt.scene.generate import FAMILIES, POINTS
 from exactpt.scene.generate import generate as generated
-from exactpt.scene.scene import Scene
 
 TOUCHING = """
 POLYGON ((0 0, 0.1 0, 0.1 0.1, 0 0))
@@ -21,14 +17,8 @@ POLYGON ((0.1 0, 1 0, 1 1, 0.1 0))
 TIE = "POLYGON ((0 0, 2 2, 2 0, 0 1, 0 0))\nPOINT (9 9)"
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
-
-
 def refused(capsys, *arguments):
-    with pytest.raises(SystemExit) as left:
-        main(list(map(str, arguments)))
-    assert left.value.code == 2
+    assert code_of(*list(map(str, arguments))) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("exactpt: ")
@@ -164,8 +154,7 @@ def test_a_refusal_is_one_line_though_an_outline_was_left_out(tmp_path, capsys):
     source = tmp_path / "two.wkt"
     source.write_text("POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))\nPOLPOLYGON\n")
 
-    with pytest.raises(SystemExit):
-        main(["convert", str(source), str(tmp_path / "two.json"), "--skip-invalid"])
+    code_of("convert", source, tmp_path / "two.json", "--skip-invalid")
 
     error = capsys.readouterr().err
     assert error.count("\n") == 1
@@ -181,9 +170,6 @@ def test_nothing_is_written_if_the_time_is_used_up_by_what_touches(tmp_path, mon
     monkeypatch.setattr(initial, "initial_touches", slow)
     (tmp_path / "two.wkt").write_text(TOUCHING)
 
-    with pytest.raises(SystemExit) as left:
-        main(["convert", str(tmp_path / "two.wkt"), str(tmp_path / "two.json")])
-
-    assert left.value.code == 4
+    assert code_of("convert", tmp_path / "two.wkt", tmp_path / "two.json") == 4
     assert capsys.readouterr().out == ""
     assert [file.name for file in tmp_path.iterdir()] == ["two.wkt"]

@@ -8,15 +8,11 @@ from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Translation, read_shapes, write_shapes
 from exactpt.exchange.bodies import scene_of
-from exactpt.exchange.files import read_shapes, write_shapes
 from exactpt.exchange.geojson import geojson_of, shapes_of
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.kernel.numbers import QQ, parse_rational
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]
 decimals = st.decimals(min_value=-1000, max_value=1000, places=20)

@@ -8,13 +8,11 @@ from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene
 from exactpt.exchange.bodies import scene_of
 from exactpt.exchange.shapes import nested, shapes_at
 from exactpt.exchange.svg import shapes_of, svg_of
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
 
 
 def drawing(inside, attributes=""):

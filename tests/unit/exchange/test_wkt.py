@@ -6,13 +6,11 @@ from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene
 from exactpt.exchange.bodies import scene_of
 from exactpt.exchange.shapes import shapes_at
 from exactpt.exchange.wkt import shapes_of, wkt_of
 from exactpt.kernel.numbers import QQ, parse_rational
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
 
 decimals = st.decimals(min_value=-1000, max_value=1000, places=20).map(lambda d: f"{d:f}")
 

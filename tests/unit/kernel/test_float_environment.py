@@ -2,6 +2,7 @@
 
 import contextlib
 import ctypes
+import gc
 import platform
 import threading
 from fractions import Fraction
@@ -10,12 +11,12 @@ import numpy as np
 import pytest
 
 import exactpt
-from exactpt import arrays
+from exactpt import InputError, Polynomial, arrays
 from exactpt.certificates.kinetic import CertificateQueue
 from exactpt.cli import main
-from exactpt.errors import InputError, RoundingError
+from exactpt.errors import RoundingError
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.rounding import check_rounding
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.testing import space
@@ -239,3 +240,31 @@ def test_bug_errstate_of_numpy_does_not_leak(handling):
             )
             assert found.found.tolist() == [True]
     assert called == []
+
+
+# The collector rests within the context, and is afterwards what it was before
+
+
+@pytest.fixture(autouse=True)
+def _as_it_was():
+    was_on = gc.isenabled()
+    yield
+    (gc.enable if was_on else gc.disable)()
+
+
+def fail_within():
+    with collector_at_rest():
+        with collector_at_rest():
+            assert not gc.isenabled()
+        assert not gc.isenabled()
+        raise ValueError("within")
+
+
+@pytest.mark.parametrize("was_on", [True, False])
+def test_it_is_afterwards_what_it_was(was_on):
+    (gc.enable if was_on else gc.disable)()
+
+    with pytest.raises(ValueError, match="within"):
+        fail_within()
+
+    assert gc.isenabled() is was_on

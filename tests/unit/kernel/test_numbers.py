@@ -16,8 +16,7 @@ from hypothesis import strategies as st
 from oracles import exact, is_nearest_double
 from strategies import as_rational, doubles, fractions, wide_fractions
 
-from exactpt.errors import InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, InputError
 from exactpt.kernel.numbers import (
     QQ,
     ZZ,

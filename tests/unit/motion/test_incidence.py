@@ -7,11 +7,9 @@ from hypothesis import strategies as st
 from oracles import exact
 from strategies import algebraics, as_int_poly, as_rational, fractions, trim
 
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import Affine, AlgebraicNumber, Body, Rigid, Translation
 from exactpt.kernel.integer_polynomial import sign_at
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import coincide, lies_on, orientation_polynomial
-from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.track import Track
 
 coefficients = st.lists(fractions, max_size=2)

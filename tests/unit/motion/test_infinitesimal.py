@@ -6,14 +6,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import fractions
 
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt import AlgebraicNumber, Body, Rigid, Translation
 from exactpt.kernel.integer_polynomial import add, multiply, sign_at, subtract
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
 from exactpt.motion.infinitesimal import displacements, ring_of_copies
-from exactpt.motion.motions import Rigid, Translation
 
 START, END = QQ(0), QQ(3)
 paths = st.lists(fractions, max_size=3)

@@ -14,12 +14,9 @@ from hypothesis import strategies as st
 from oracles import body_at, exact, motion_at
 from strategies import as_rational, body_data, fractions
 
-from exactpt.errors import InputError
+from exactpt import Affine, Body, InputError, Pieces, Polynomial, Rigid, Translation, in_local_time
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
-from exactpt.motion.local_time import in_local_time
-from exactpt.motion.motions import REST, Affine, Pieces, Rigid, Translation
+from exactpt.motion.motions import REST
 from exactpt.scene.format import loads
 
 times = st.one_of(fractions, st.builds(Fraction, st.integers(-99, 99), st.integers(1, 99)))

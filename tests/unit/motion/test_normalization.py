@@ -9,10 +9,9 @@ from hypothesis import strategies as st
 from oracles import compare_with_rational, exact, value
 from strategies import algebraics, as_rational, fractions
 
+from exactpt import Polynomial, Rigid
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.motions import Rigid
 from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.track import track
 

@@ -1,15 +1,21 @@
-"""Shapes in doubles, exact or with a bound; those of numpy arrays are those of lists."""
+"""Shapes of moving bodies: in doubles, nested, convex for ever."""
 
 from fractions import Fraction
+from random import Random
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from strategies import fractions
 
-from exactpt import Body, InputError, Polynomial, Translation
+from exactpt import Body, InputError, Polynomial, Scene, Translation
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.convexity import stays_convex
+from exactpt.motion.inside import covers, nested_pairs
 from exactpt.motion.outline import rest_outline
 from exactpt.motion.shape import Shape
+from exactpt.motion.swept_edges import SweptEdges
 
 numbers = st.fractions() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
 
@@ -92,3 +98,119 @@ def test_other_arrays_are_refused(array):
 def test_an_array_without_dimension_is_no_polynomial():
     with pytest.raises(InputError, match="a polynomial has a list of coefficients"):
         Translation(np.array(1.0))
+
+
+# Which bodies contain others, by the boxes of their rings; and how few pairs are compared
+
+
+def square(x, y, side):
+    return [(x, y), (x + side, y), (x + side, y + side), (x, y + side)]
+
+
+@pytest.mark.parametrize("offset", [0, 10**30])
+def test_pairs_are_those_in_which_a_body_covers_a_vertex(offset):
+    """Plates with a hole and an isle in it, and small bodies in a part, a hole or an isle."""
+    random = Random(offset)
+    plates, small = [], []
+    for x in range(offset, offset + 160, 40):
+        outer = {"vertices": square(x, 0, 30), "holes": [square(x + 5, 5, 20)]}
+        plates.append(Body(f"p{x}", parts=[outer, square(x + 11, 11, 6)]))
+    for i in range(60):
+        x, y = random.randrange(3200) + QQ(1, 5), random.randrange(-5, 35) + QQ(1, 3)
+        small.append(Body(f"s{i}", square(offset + x / 20, y, QQ(1, 40))))
+    bodies = {i: (body, body._at(QQ(0))) for i, body in enumerate([*plates, *small])}
+    apart = [(i, j) for j in bodies for i in range(4) if i < j and random.random() < 0.9]
+    expected = {
+        (i, j) for i, j in apart
+        if any(covers(*bodies[i], bodies[j][1][ring.start]) for ring in bodies[j][0].rings)
+    }  # fmt: skip
+    assert nested_pairs(bodies, apart) == expected
+    assert len(expected) > 10
+
+
+def test_vertices_are_not_compared_with_edges_of_their_own_rigid_body():
+    """Two boxes with many vertices on the sides that face each other slide past each other."""
+    n = 200
+    top = [*((QQ(i, n), 1) for i in range(n + 1)), (1, 2), (0, 2)]
+    bottom = [*((QQ(i, n), 0) for i in range(n + 1)), (1, -1), (0, -1)]
+    scene = Scene([Body("a", top, Translation([0, 1])), Body("b", bottom)], time=(-2, 2))
+    swept = SweptEdges(scene.bodies, scene._start, scene._end)
+    boxes = swept.during(scene._start, scene._end)
+    found = list(swept.meeting(boxes, swept.around(boxes)))
+    assert np.concatenate([v for v, _ in found]).size == 0
+
+
+# `stays_convex`, against the turns of the polygon at many rational times
+
+START, END = QQ(0), QQ(2)
+paths = st.lists(fractions.map(lambda q: q / 8), max_size=3)
+SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
+
+
+@st.composite
+def squares(draw):
+    """A square whose vertices move a little, each in its own way."""
+    vertices = [{"x": [x, *draw(paths)], "y": [y, *draw(paths)]} for x, y in SQUARE]
+    return Body("a", vertices)
+
+
+def turns(body, t):
+    p = body.at(t)
+    n = len(p)
+    return [
+        (p[i - 1][0] - p[i - 2][0]) * (p[i][1] - p[i - 1][1])
+        - (p[i - 1][1] - p[i - 2][1]) * (p[i][0] - p[i - 1][0])
+        for i in range(n)
+    ]
+
+
+@pytest.mark.long
+@given(squares())
+def test_what_stays_convex_turns_left_at_all_times(body):
+    answer = stays_convex(body, range(4), START, END)
+    left = [min(turns(body, END * QQ(k, 64))) > 0 for k in range(65)]
+
+    if answer:
+        assert all(left)
+    elif all(left):  # it is lost in between, for a moment shorter than the steps
+        step = QQ(1, 32)
+        assert any(min(turns(body, step * k)) < 1 for k in range(65))
+
+
+def moving_corner(x, y):
+    return Body("a", [*SQUARE[:2], {"x": x, "y": y}, SQUARE[3]])
+
+
+def test_a_corner_pushed_in_and_out():
+    in_time = moving_corner([2, -2, 1], [2, -2, 1])  # at (1, 1) for t = 1: flat then
+
+    assert not stays_convex(in_time, range(4), START, END)
+    assert stays_convex(in_time, range(4), START, QQ(99, 100))
+    assert stays_convex(moving_corner([2, -1, "1/2"], [2, -1, "1/2"]), range(4), START, END)
+
+
+def test_the_end_counts():
+    closing = moving_corner([2, -1], [2, -1])  # flat at t = 1
+
+    assert not stays_convex(closing, range(4), START, QQ(1))
+    assert stays_convex(closing, range(4), START, QQ(1) - QQ(1, 10**9))
+
+
+def test_a_vertex_that_is_flat_for_ever_is_not_strictly_convex():
+    assert not stays_convex(Body("a", [(0, 0), (1, 0), (2, 0), (0, 2)]), range(4), START, END)
+
+
+def test_flat_at_the_start_and_convex_after_it_stays_convex():
+    opening = Body("a", [(0, 0), {"x": [1], "y": [0, -1]}, (2, 0), (0, 2)])
+    closing = Body("a", [(0, 0), {"x": [1], "y": [0, 1]}, (2, 0), (0, 2)])
+
+    assert stays_convex(opening, range(4), START, END)
+    assert not stays_convex(closing, range(4), START, QQ(1, 4))
+
+
+def test_later_pieces_count():
+    frames = [(0, SQUARE), (1, SQUARE), (2, [*SQUARE[:2], ("1/2", "1/2"), SQUARE[3]])]
+    body = Body("a", keyframes=frames)
+
+    assert stays_convex(body, range(4), START, QQ(1))
+    assert not stays_convex(body, range(4), START, QQ(2))

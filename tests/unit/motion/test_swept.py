@@ -7,10 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import as_rational, doubles, fractions
 
+from exactpt import Affine, Body, Rigid, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.normalization import normalization_for
 from exactpt.motion.swept import SweptBoxes
 

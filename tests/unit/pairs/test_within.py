@@ -5,13 +5,9 @@ from random import Random
 import pytest
 
 import exactpt
-from exactpt import first_within
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Rigid, Translation
 from exactpt.scene.families.shapes import convex_polygon, hull
-from exactpt.scene.scene import Scene
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 TIP = [(0, 0), (-3, 1), (-3, -1)]

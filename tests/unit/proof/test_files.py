@@ -13,9 +13,8 @@ from folding import every
 from proving import accepted, proof_of
 
 import exactpt
-from exactpt import proof_check
+from exactpt import InputError, proof_check
 from exactpt.cli import cli
-from exactpt.errors import InputError
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.generate import generate
 

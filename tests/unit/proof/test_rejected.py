@@ -6,8 +6,7 @@ from random import Random
 import pytest
 from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
-from exactpt import Body, Scene, Translation
-from exactpt.errors import AuditError
+from exactpt import AuditError, Body, Scene, Translation
 from exactpt.kernel.numbers import QQ
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.format import loads

@@ -2,11 +2,10 @@
 
 import pytest
 
+from exactpt import AlgebraicNumber, Simulation
 from exactpt.certificates.perturbation import comes_first
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.pseudotriangulation import degenerate
 from exactpt.scene.generate import generate
-from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.plain
 

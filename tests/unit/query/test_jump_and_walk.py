@@ -6,14 +6,12 @@ from random import Random
 import numpy as np
 import pytest
 
-from exactpt import InputError, Simulation
+from exactpt import FreeSpace, InputError, Scene, Simulation
 from exactpt.pairs.start import initial_touches
 from exactpt.query.answers import PLACES
 from exactpt.query.nodes import Nodes
-from exactpt.query.space import FreeSpace
 from exactpt.query.walk import Ray
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.start import start_tiling
 
 

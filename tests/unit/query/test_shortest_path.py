@@ -10,13 +10,9 @@ import pytest
 from test_space import check_taut, some_point, spaces
 from visibility_graph import VisibilityGraph, length_of
 
-from exactpt.errors import InputError, UnreachableError
-from exactpt.motion.body import Body
+from exactpt import Body, FreeSpace, InputError, Scene, Simulation, UnreachableError
 from exactpt.pairs.start import initial_touches
-from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import FAMILIES, RINGS
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.start import start_tiling
 from fuzz.transformations.run import scene_of
 

@@ -7,15 +7,10 @@ from random import Random
 import brute
 import pytest
 
-from exactpt.errors import InputError
+from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.pairs.start import initial_touches
-from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import FAMILIES, RINGS, generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import start_tiling
 

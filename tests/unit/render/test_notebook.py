@@ -7,9 +7,8 @@ import xml.etree.ElementTree as ET
 import pytest
 from render_scenes import demo, overlapping, small
 
-from exactpt.collision.detector import first_contact
+from exactpt import Simulation, first_contact
 from exactpt.render.words import polynomial_in_words
-from exactpt.simulation.simulation import Simulation
 
 
 def groups(svg):

@@ -4,11 +4,10 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from click.testing import CliRunner
+from commands import code_of, run
 from render_scenes import small
 
 from exactpt import Body, Scene, Translation, clearance
-from exactpt.cli import cli, main
 from exactpt.kernel.numbers import QQ
 from exactpt.render.film import film_of
 from exactpt.render.page import page_of
@@ -101,10 +100,6 @@ def scene(tmp_path):
     return tmp_path / "scene.json"
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
-
-
 @pytest.mark.parametrize("ending", ["svg", "png", "html"])
 def test_on_the_command_line(scene, ending):
     if ending == "png":
@@ -140,9 +135,7 @@ def test_a_page_of_bodies_that_touch_at_the_start(tmp_path):
 )
 def test_wrong_plots(scene, monkeypatch, capsys, arguments, message):
     monkeypatch.chdir(scene.parent)
-    with pytest.raises(SystemExit) as left:
-        main(["draw", str(scene), *arguments])
-    assert left.value.code == 2
+    assert code_of("draw", scene, *arguments) == 2
     said = capsys.readouterr().err
     assert message in said
     assert said.count("\n") == 1

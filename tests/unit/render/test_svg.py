@@ -9,17 +9,14 @@ from pathlib import Path
 import pytest
 from render_scenes import apart, demo, overlapping, small
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.render.canvas import arrow_boxes, frame_of
 from exactpt.render.draw import draw
 from exactpt.render.film import film_of
 from exactpt.render.page import page_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
-from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
 
 SVG = "{http://www.w3.org/2000/svg}"

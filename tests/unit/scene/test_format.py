@@ -15,11 +15,9 @@ from hypothesis import strategies as st
 from oracles import body_at, exact
 from strategies import as_rational, fractions, scene_data
 
-from exactpt.errors import InputError
-from exactpt.motion.body import Body
+from exactpt import Body, InputError, Scene
 from exactpt.motion.motions import REST
 from exactpt.scene.format import load, loads
-from exactpt.scene.scene import Scene
 from exactpt.scene.written import save, to_json
 
 SCENES = Path(__file__).parents[2] / "data" / "scenes"

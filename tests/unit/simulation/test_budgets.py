@@ -8,8 +8,8 @@ import threading
 import time as clock
 
 import pytest
+from commands import code_of
 
-from exactpt.cli import main
 from exactpt.collision.detector import first_contact
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel import budget
@@ -185,10 +185,7 @@ def test_budgets_in_budgets():
 def test_a_command_with_little_memory(tmp_path, capsys, command):
     generate("convex", 3).save(tmp_path / "scene.json")
 
-    with pytest.raises(SystemExit) as end:
-        main([command, str(tmp_path / "scene.json"), "--max-memory", "1"])
-
-    assert end.value.code == 4
+    assert code_of(command, tmp_path / "scene.json", "--max-memory", "1") == 4
     assert "exactpt: memory limit exceeded" in capsys.readouterr().err
 
 
@@ -265,10 +262,7 @@ def test_a_restored_run_and_a_copy_have_little_memory(tmp_path, monkeypatch):
 def test_collide_with_little_memory(tmp_path, capsys, all_of_them):
     generate("turning", 3).save(tmp_path / "scene.json")
 
-    with pytest.raises(SystemExit) as end:
-        main(["collide", str(tmp_path / "scene.json"), "--max-memory", "1", *all_of_them])
-
-    assert end.value.code == 4
+    assert code_of("collide", tmp_path / "scene.json", "--max-memory", "1", *all_of_them) == 4
     assert "exactpt: memory limit exceeded" in capsys.readouterr().err
 
 

@@ -5,11 +5,8 @@ from random import Random
 import pytest
 from test_motion_changes import audit
 
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Scene, Simulation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 
 
 def jar(rng, x, y, *, width=40, depth=100, steps=8, down=False):

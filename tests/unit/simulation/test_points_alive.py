@@ -8,13 +8,9 @@ import pytest
 from test_motion_changes import audit, turn_back
 from test_save import check
 
+from exactpt import Body, Pieces, Scene, Simulation, Translation, onward
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, Translation
 from exactpt.scene.generate import POINTS, generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.motion_changes import onward
-from exactpt.simulation.simulation import Simulation
 
 
 def swarm(rng, count, *, size=1000, speed=40, end=10**4):

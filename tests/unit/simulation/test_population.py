@@ -6,16 +6,12 @@ from random import Random
 import pytest
 from test_motion_changes import at, audit, crowd, some_plan, turn_back
 
-from exactpt.errors import AuditError, InputError
+from exactpt import AuditError, Body, InputError, Rigid, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.region import Region
 from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 
 LOCAL = ["greedy", "lazy", "mixed"]
 

@@ -7,13 +7,8 @@ from random import Random
 
 import pytest
 
-from exactpt.errors import BudgetExceeded, InputError
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
+from exactpt import Body, Bounce, BudgetExceeded, InputError, Scene, Simulation, Translation
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.responses import Bounce
-from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.store import sealed
 
 
@@ -205,6 +200,13 @@ def without_seal(data):
     return {k: v for k, v in data.items() if k not in {"exactpt-simulation", "sha256"}}
 
 
+def assert_refused(folder, data, message):
+    """A file with these data and a checksum of its own is refused."""
+    (folder / "run.json").write_text(json.dumps(sealed(data)))
+    with pytest.raises(InputError, match=message):
+        Simulation.restore(folder / "run.json")
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("value", ["2", 2, -1, 1e300, None, [], {}, "1e99999", "x", True])
 def test_a_forged_file_is_refused_or_keeps_its_budget(tmp_path, value):
@@ -223,32 +225,26 @@ def test_a_far_end_is_refused(tmp_path):
     """The run went on to the end of the tiling, and asked for no deadline on the way."""
     simulation = Simulation(generate("convex", 2), tiling="greedy")
     data = without_seal(simulation.to_json())
-    far = changed(data, ("state", "end"), "1" + "0" * 99)
-    (tmp_path / "run.json").write_text(json.dumps(sealed(far)))
-
-    with pytest.raises(InputError, match=r"run\.json: .*the tiling ends at t = 10*\.\.\."):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(
+        tmp_path,
+        changed(data, ("state", "end"), "1" + "0" * 99),
+        r"run\.json: .*the tiling ends at t = 10*\.\.\.",
+    )
 
 
 @pytest.mark.parametrize("slot", [-1, 10**12, 2**70])
 def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
     """The queue would have room for all certificates up to it."""
     data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
-    forged = changed(data, ("state", "queue", 0, 0), slot)
-    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
-
-    with pytest.raises(InputError, match=r"run\.json: .*not a certificate"):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(
+        tmp_path, changed(data, ("state", "queue", 0, 0), slot), r"run\.json: .*not a certificate"
+    )
 
 
 def test_roots_of_more_than_three_vertices_are_refused(tmp_path):
     """The fourth number would be taken for an exact time."""
     data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
-    forged = changed(data, ("state", "roots_now"), [[0, 1, 2, 3]])
-    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
-
-    with pytest.raises(InputError, match=r"run\.json: "):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(tmp_path, changed(data, ("state", "roots_now"), [[0, 1, 2, 3]]), r"run\.json: ")
 
 
 @pytest.mark.parametrize(
@@ -263,11 +259,7 @@ def test_bug_points_that_hang_in_a_circle_are_refused(tmp_path, place, value, me
     """A walk along the tree had no end, and asked for no deadline; the hostile fuzzer found it."""
     data = without_seal(Simulation(generate("linear_points", 4)).to_json())
     assert data["state"]["structure"]["order"] == [2, 1, 0, 3, 5, 6, 4]
-    forged = changed(data, ("state", "structure", *place), value)
-    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
-
-    with pytest.raises(InputError, match=message):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(tmp_path, changed(data, ("state", "structure", *place), value), message)
 
 
 @pytest.mark.parametrize(
@@ -281,11 +273,7 @@ def test_bug_points_that_hang_in_a_circle_are_refused(tmp_path, place, value, me
 def test_bug_rings_without_all_vertices_are_refused(tmp_path, place, value, message):
     """A tiling was built anew from faces that never closed; the hostile fuzzer found it."""
     data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
-    forged = changed(data, ("state", "bodies", *place), value)
-    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
-
-    with pytest.raises(InputError, match=message):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(tmp_path, changed(data, ("state", "bodies", *place), value), message)
 
 
 @pytest.mark.parametrize(
@@ -305,11 +293,9 @@ def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
     simulation = Simulation(generate("convex", 2), tiling="greedy")
     simulation.step()
     data = without_seal(simulation.to_json())
-    forged = changed(data, ("state", "now", "exact"), number)
-    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
-
-    with pytest.raises(InputError, match="no root of its polynomial"):
-        Simulation.restore(tmp_path / "run.json")
+    assert_refused(
+        tmp_path, changed(data, ("state", "now", "exact"), number), "no root of its polynomial"
+    )
 
 
 @pytest.mark.long

@@ -4,13 +4,9 @@ import json
 
 import pytest
 
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt import Body, BudgetExceeded, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
 from exactpt.tiling.start import TILINGS
 from fuzz.questions.all_pairs import first_contact_allpairs

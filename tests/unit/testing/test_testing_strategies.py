@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exactpt import Body, Rigid, Scene, first_contact
-from exactpt.errors import InputError
+from exactpt import Body, InputError, Rigid, Scene, first_contact
 from exactpt.geometry.predicates import orientation
 from exactpt.scene.generate import EVERY
 from exactpt.testing import FAMILIES, Question, strategies

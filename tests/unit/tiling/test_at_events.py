@@ -4,15 +4,13 @@ from itertools import pairwise
 
 import pytest
 
+from exactpt import Body, Scene, Simulation
 from exactpt.cgal import BodyShape
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
 from exactpt.scene.families.shapes import hull
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
 from exactpt.tiling.start import TILINGS
 

@@ -10,14 +10,10 @@ import pytest
 from ranked import FORMER, RANKED, FormerRules
 
 import exactpt
+from exactpt import AlgebraicNumber, Body, InputError, Scene, Simulation, first_contact
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.detector import first_contact
-from exactpt.errors import InputError
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.motion.body import Body
+from exactpt.kernel.algebraic import rational_between
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for

@@ -9,10 +9,9 @@ import pytest
 from folding import every
 
 from benchmarks.statics import swept
+from exactpt import Body, Rigid, Translation
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.greedy.bitangent import tangent_pair
 from exactpt.tiling.greedy.convex_ring import chains_of, is_above, near_tangent

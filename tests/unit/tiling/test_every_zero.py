@@ -7,17 +7,14 @@ from itertools import pairwise
 
 import pytest
 
+from exactpt import AlgebraicNumber, Body, Scene, Translation
 from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation_polynomial
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
-from exactpt.motion.motions import Translation
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling
 from fuzz import corpus

@@ -8,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from moving import END, START, affine, linear, parabolic, place, sign, times, turning, vertices
 
+from exactpt import Body, Translation
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 
 any_motion = st.one_of(linear, parabolic, turning, affine)

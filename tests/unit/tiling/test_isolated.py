@@ -7,18 +7,16 @@ from time import monotonic
 import pytest
 
 from benchmarks.shapes import crowd
-from exactpt import Body, BudgetExceeded, Rigid, Simulation, Translation, onward
+from exactpt import AuditError, Body, BudgetExceeded, Rigid, Scene, Simulation, Translation, onward
 from exactpt.certificates.certificate import MOTION, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime
-from exactpt.errors import AuditError
 from exactpt.kernel.budget import within
 from exactpt.kernel.rounding import UNSURE
 from exactpt.motion.vertices import MOTION as AT_MOTION
 from exactpt.motion.vertices import OTHER_MOTION, WIDTH
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling import tiling as tilings
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.greedy import VerticalRules

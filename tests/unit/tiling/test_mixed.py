@@ -6,11 +6,10 @@ from random import Random
 import pytest
 from random_motions import lanes
 
+from exactpt import Body, Scene, Simulation, Translation
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
@@ -20,8 +19,6 @@ from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.pseudotriangulation.plane_sweep import Sweep, body_edges
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh

@@ -7,17 +7,15 @@ import pytest
 from folding import every
 from test_mixed import free, shuffled
 
+from exactpt import Body, Scene, Translation
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.scene.families.shapes import hull
 from exactpt.scene.generate import RINGS, generate
-from exactpt.scene.scene import Scene
 from exactpt.tiling.mixed.forest import Forest
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.static import mixed_mesh

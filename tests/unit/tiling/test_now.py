@@ -20,6 +20,7 @@ from moving import (
     vertices,
 )
 
+from exactpt import AlgebraicNumber, Body, Translation
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier, least_first
 from exactpt.certificates.coincidence import (
@@ -34,11 +35,8 @@ from exactpt.certificates.coincidence import (
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.perturbation import orientation_polynomial
 from exactpt.certificates.queue import EventTime
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 
 any_motion = st.one_of(linear, parabolic, turning, affine)

@@ -8,17 +8,12 @@ import pytest
 from folding import every
 from point_audits import points_at, run_and_audit, started, structure_of, tangents_by_slope
 
+from exactpt import AuditError, Body, InputError, Scene, Simulation, Translation, first_contact
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.detector import first_contact
 from exactpt.collision.driver import Driver
-from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
 from exactpt.planar.halfedge import edge_key
 from exactpt.scene.generate import POINTS, generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.incremental.fan import chain, fan_edges
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.paths import SearchableTree

@@ -6,15 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from exactpt import Affine, AlgebraicNumber, Body, Rigid, Translation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.perturbation import cross
 from exactpt.certificates.queue import EventTime
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation_polynomial as orientation_of_tracks
-from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.vertices import Vertices
 
 small = st.integers(-3, 3)

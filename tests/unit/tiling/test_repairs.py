@@ -1,23 +1,25 @@
-"""Repairs: their order at one time, and that they are enough."""
+"""Repairs: their order at one time, that they are enough, and the last resort."""
 
 from collections import Counter
 
 import pytest
 
+from exactpt import AuditError, Body, Scene, Simulation, Translation
+from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.perturbation import comes_first
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
+from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.scene.families.shapes import box
 from exactpt.scene.generate import generate
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.repairs import Repairs
-from exactpt.tiling.start import start_tiling
+from exactpt.tiling.engine import Engine
+from exactpt.tiling.greedy.greedy import VerticalRules
+from exactpt.tiling.greedy.shadowed import ShadowRules
+from exactpt.tiling.lazy import LazyRules
+from exactpt.tiling.repairs import RebuildNeeded, Repairs
+from exactpt.tiling.simultaneous import FailureGroup
+from exactpt.tiling.start import TILINGS, start_tiling
 from fuzz.statics import run_and_audit
-
-pytestmark = pytest.mark.plain
 
 
 def new_sign(certified, h):
@@ -28,6 +30,7 @@ def scene_triple(certified, h):
     return {(v.body, v.index) for v in certified.vertices_of(h)}
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize(
     "family, seed, tiling",
     [
@@ -62,6 +65,7 @@ def test_the_copies_of_one_triple_are_mended_in_perturbed_order(monkeypatch, fam
     assert any(moved)
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
 def test_what_happens_one_by_one_is_repaired_and_not_built_anew(tiling):
     done = Counter()
@@ -75,6 +79,7 @@ def test_what_happens_one_by_one_is_repaired_and_not_built_anew(tiling):
     assert done["hull"] > 5
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("tiling, least", [("greedy", 20), ("lazy", 3)])
 def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tiling, least):
     """Where the check is left out, it would have found nothing and changed nothing."""
@@ -101,6 +106,7 @@ def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tili
     assert done["checked"] > 10
 
 
+@pytest.mark.plain
 @pytest.mark.long
 def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
     """Squares that rise in step through a grid, all at once: what fails then is all there is."""
@@ -114,6 +120,7 @@ def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
     assert kinetic.stats.rebuilds == 0
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("seed, flips", [(0, 0), (4, 2), (7, 2), (36, 3)])
 def test_pairs_exchanged_on_one_vertical_line_are_no_reason_to_build_anew(seed, flips):
     """Rings in step: a diagonal that has to give way is not there yet (4, 36), or a bitangent
@@ -123,3 +130,140 @@ def test_pairs_exchanged_on_one_vertical_line_are_no_reason_to_build_anew(seed, 
 
     assert stats.rebuilds == 0
     assert stats.flips == flips
+
+
+# The last resort: a tiling that cannot be repaired is built anew, just after now
+
+
+@pytest.fixture
+def every_event_is_repaired(monkeypatch):
+    """Isolated events are processed without `Repairs`."""
+    for rules in (LazyRules, VerticalRules, ShadowRules):
+        monkeypatch.setattr(rules, "slides_are_plain", False)
+
+
+def refuse(*_):
+    raise RebuildNeeded
+
+
+@pytest.mark.plain
+@pytest.mark.long
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.parametrize("family", ["convex", "turning", "small_grid", "blobs"])
+@pytest.mark.usefixtures("every_event_is_repaired")
+def test_a_run_without_any_repair_finds_the_same(monkeypatch, tiling, family):
+    scene = generate(family, 3)
+    repaired = run_and_audit(scene, tiling)
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
+
+    rebuilt = run_and_audit(scene, tiling)
+
+    assert rebuilt.kinetic.stats.rebuilds > 0
+    assert rebuilt.contact == repaired.contact
+    assert rebuilt.kinetic.now.compare(repaired.kinetic.now) == 0
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.usefixtures("every_event_is_repaired")
+def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
+    """It was left out once, and the tiling stayed as it was (corpus cgal-d5efe668f5)."""
+    comb = [(0, 3), (0, 1), (1, 1), (1, 3), (5, 4), (5, 1), (0, 0), (1, 0), (9, 0), (9, 5)]
+    bodies = [Body("a", [(2, 3)]), Body("b", comb, Translation([0], [0, 1]))]
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
+
+    run = run_and_audit(Scene(bodies, (0, 2)), tiling)
+
+    assert run.kinetic.now.compare_rational(QQ(2)) == 0
+    after = OneSided(run.kinetic.certifier, before=False)
+    audit_angles(run.kinetic.mesh, after)
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.usefixtures("every_event_is_repaired")
+def test_a_rebuild_that_never_succeeds_ends(monkeypatch, tiling):
+    scene = generate("convex", 3)
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
+    monkeypatch.setattr(Engine, "_build_anew", lambda *_: False)
+
+    with pytest.raises(AuditError, match="no tiling holds just after t = "):
+        run_and_audit(scene, tiling)
+
+
+# Whether repairs at one time may have met
+
+
+@pytest.fixture
+def mesh():
+    boxes = [Body(f"b{i}", [(x, 0), (x + 2, 1), (x, 3)]) for i, x in enumerate((0, 9, 20))]
+    scene = Scene(boxes, (0, 1))
+    return start_tiling(scene, "lazy", scene.start).mesh.copy()
+
+
+def faces(mesh):
+    """The tiles, as lists of half-edges."""
+    seen = {min(mesh.map.face(h)): mesh.map.face(h) for h in mesh.map.half_edges()}
+    return list(seen.values())
+
+
+def batch(*repairs):
+    noted = FailureGroup()
+    for half_edges in repairs:
+        noted.begin_repair()
+        noted.touch(half_edges)
+    return noted
+
+
+def test_one_repair_needs_no_check(mesh):
+    assert not batch().needs_check(mesh)
+    assert not batch([h for face in faces(mesh) for h in face]).needs_check(mesh)
+
+
+def test_repairs_of_different_tiles_need_none(mesh):
+    first, second, *_ = faces(mesh)
+
+    assert not batch(first, second).needs_check(mesh)
+    assert not batch(first[:1], second[1:]).needs_check(mesh)
+
+
+def test_repairs_of_one_tile_do(mesh):
+    face = max(faces(mesh), key=len)
+
+    assert batch(face[:1], face[1:2]).needs_check(mesh)
+    assert batch(face, face).needs_check(mesh)
+
+
+def test_so_do_those_of_which_one_has_removed_what_another_had_changed(mesh):
+    _, second, *_ = faces(mesh)
+    gone = next(h for h in mesh.diagonals() if h not in second and h ^ 1 not in second)
+    noted = batch([gone], second[:1])
+    mesh.map.remove_edge(gone)
+
+    assert noted.needs_check(mesh)
+
+
+def test_with_new_motions_any_repair_needs_one(mesh):
+    for noted, expected in ((batch(), False), (batch(faces(mesh)[0]), True)):
+        noted.has_new_motions = True
+
+        assert noted.needs_check(mesh) == expected
+
+
+def test_a_new_time_begins_with_nothing(mesh):
+    noted = batch(*faces(mesh)[:1], *faces(mesh)[:1])
+    noted.has_new_motions = True
+
+    noted.clear()
+
+    assert not noted.touched
+    assert not noted.needs_check(mesh)
+
+
+def test_what_is_doubted_is_checked_whatever_else_is_repaired(mesh):
+    noted = batch()
+    noted.require_check(faces(mesh)[0])
+
+    assert noted.needs_check(mesh)
+    noted.clear()
+    assert not noted.needs_check(mesh)

@@ -2,12 +2,8 @@
 
 import pytest
 
-from exactpt.collision.detector import first_contact
+from exactpt import Body, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.scene.scene import Scene
-from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
 from exactpt.tiling.start import TILINGS
 from fuzz.statics import audit_at, run_and_audit
