@@ -46,7 +46,9 @@ def load(path: Path, max_bytes: int | None = None) -> Scene:
     try:
         return loads(text)
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        other = path.suffix.lower() in (".geojson", ".mfjson", ".svg", ".wkt")
+        advice = "; exactpt convert makes a scene of such a file" if other else ""
+        raise InputError(f"{path}: {error}{advice}") from None
 
 
 def loads(text: str) -> Scene:

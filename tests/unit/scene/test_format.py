@@ -658,3 +658,11 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path):
     path.write_bytes(b'\xef\xbb\xbf{"exactpt": 1, "time": [0, 1], "bodies": []}')
 
     assert load(path).end == 1
+
+
+@pytest.mark.parametrize("name", ["ships.mfjson", "map.geojson", "drawing.SVG", "shapes.wkt"])
+def test_the_error_for_another_format_names_the_command_that_converts_it(tmp_path, name):
+    path = tmp_path / name
+    path.write_text('{"type": "FeatureCollection", "features": []}')
+    with pytest.raises(InputError, match=r'"exactpt" is missing; exactpt convert makes a scene'):
+        load(path)
