@@ -26,6 +26,7 @@ from exactpt.kernel.numbers import (
     power_of_two,
     rational,
     rationals,
+    shorten,
     show,
 )
 from exactpt.kernel.polynomial import ZERO, Polynomial
@@ -33,6 +34,7 @@ from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.turned_angle import bits_for, is_within
 
 _MOST: Final = 100_000
+_DEGREES: Final = range(1, 32, 2)
 _SHORTEST: Final = 1 / 32
 """Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""
 
@@ -57,6 +59,7 @@ class Spin(Pieces):
         time: the start and the end of the span.
         error: the largest error of the angle, in radians. Pieces have a half turn of degree 1
             for errors from about 2 10^-6 on, of higher degrees for smaller ones.
+        degree: the degree of the half turns, 1, 3, 5, ..., in place of the one chosen by the error.
         x: a translation, as in `Translation`, applied last.
         y: likewise.
 
@@ -76,15 +79,18 @@ class Spin(Pieces):
         *,
         time: Sequence[Rational],
         error: Rational = "1/1000000",
+        degree: int | None = None,
         x: Coefficients = ZERO,
         y: Coefficients = ZERO,
     ) -> None:
+        if degree is not None and not (type(degree) is int and degree in _DEGREES):
+            raise InputError(f"the degree of a half turn is odd, from 1 to 31: {shorten(degree)}")
         rate, most = _rates(omega, error)
         start, end = rationals(time, 2, "a span has a start and an end")
         if start >= end:
             raise InputError(f"a span ends after it starts: {show(start)}, then {show(end)}")
         bits_for(most, rate * max(abs(start), abs(end)))  # raises if the error is too small
-        degree, step = _first_try(rate, most, end - start)
+        degree, step = _first_try(rate, most, end - start, degree)
         while True:
             turns = _Turns(rate, most, degree).between(start, end, step)
             pieces: list[tuple[Rational | None, SimpleMotion]] = [
@@ -160,20 +166,23 @@ def _rates(omega: Rational, error: Rational) -> tuple[QQ, QQ]:
     return rate, most
 
 
-def _first_try(omega: QQ, error: QQ, span: QQ) -> tuple[int, QQ]:
-    """Return a degree, and a duration of pieces that is likely to be short enough.
+def _radians(degree: int, error: QQ) -> float:
+    """Return an estimate of the largest angle of a piece.
 
     With the beginning of the Taylor series of the tangent as half turn, and its last coefficient
     chosen for the end of the piece, the angle is off by about 0.77 c (a / 2)^(d + 2) for a
     piece of a radians and the degree d, where c = 2 (2 / pi)^(d + 3) is the next coefficient. At
     most half the error is left for it.
     """
-    degree = -1
-    radians = 0.0
-    while radians < _SHORTEST:
+    scale = math.log2(1.54) + (degree + 3) * math.log2(2 / math.pi) - (degree + 2)
+    return min(1.5, math.exp2((exponent(error) - 2 - scale) / (degree + 2)))
+
+
+def _first_try(omega: QQ, error: QQ, span: QQ, given: int | None) -> tuple[int, QQ]:
+    """Return a degree, the given one if any, and a duration that is likely to be short enough."""
+    degree = 1 if given is None else given
+    while (radians := _radians(degree, error)) < _SHORTEST and given is None:
         degree += 2
-        scale = math.log2(1.54) + (degree + 3) * math.log2(2 / math.pi) - (degree + 2)
-        radians = min(1.5, 2.0 ** ((exponent(error) - 2 - scale) / (degree + 2)))
     if abs(omega) * span <= rational(radians):
         return degree, span
     step = rational(radians) / abs(omega)

@@ -173,3 +173,13 @@ def test_pieces_of_the_default_error_have_half_turns_of_degree_3():
     assert {motion.half_turn.degree for _, motion in spin.pieces[1:-1]} == {3}
     assert is_within(spin, QQ(1), QQ(1, 10**6))
     assert not is_within(spin, QQ(1), QQ(1, 10**7))
+
+
+def test_a_spin_has_half_turns_of_the_given_degree():
+    spin = Spin(1, time=(0, 20), degree=1)
+
+    assert len(spin.pieces) == 856
+    assert {motion.half_turn.degree for _, motion in spin.pieces[1:-1]} == {1}
+    for degree in (0, 2, -1, 33, True, "1", 10**5000):
+        with pytest.raises(InputError, match="the degree of a half turn is odd, from 1 to 31"):
+            Spin(1, time=(0, 20), degree=degree)
