@@ -23,9 +23,7 @@ scene, 4 not decided: the budget of work is used up.
 import sys
 
 if __name__ == "__main__" and not sys.flags.isolated:
-    sys.stderr.write(
-        "run it as python3 -I FILE SCENE CERTIFICATE: without -I, files nearby take part\n"
-    )
+    sys.stderr.write("run it as python3 -I FILE SCENE CERTIFICATE: else files nearby take part\n")
     sys.exit(2)
 
 import hashlib
@@ -99,7 +97,9 @@ def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
     return all((vector_of(p, q) == (0, 0) for p, q in zip(points, others, strict=True)))
 def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
     spans, near = ([], [((x << 256) // w, (y << 256) // w) for x, y, w in points])
+    product = most_words(chain(*points)) ** 2
     for u, v in edges:
+        WORK.spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0): return False
         (x, y), (z, w) = (near[u - first], near[v - first])
         spans.append((min(x, z), max(x, z), min(y, w), max(y, w), u - first, v - first))
@@ -110,14 +110,15 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
             if left > right: break
             WORK.spend(200)
             if low > top or high < bottom: continue
-            WORK.spend(2000)
+            WORK.spend(2000 + 60 * product)
             if b == c or d == a:
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0: return False
             elif meet(points[a], points[b], points[c], points[d]): return False
     return True
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
-    WORK.spend(300 * len(ring)); above, odd = ([q[1] * p[2] > p[1] * q[2] for q in ring], False)
+    WORK.spend(len(ring) * (300 + 15 * most_words((*p, *ring[0])) ** 2))
+    above, odd = ([q[1] * p[2] > p[1] * q[2] for q in ring], False)
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
     return odd
@@ -241,8 +242,8 @@ class Body:
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
         return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
-        WORK.spend(1000 * self.size); motion = motion or self.motions[bisect_right(self.ends, t)]
-        a, b, c, d, e, f, w = values(motion.form, t)
+        motion = motion or self.motions[bisect_right(self.ends, t)]
+        a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * most_words(form)))
         shape = (values(self.coordinates(i, t), t) for i in range(self.size))
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
     def check_simple(self, places: Sequence[Whole]) -> None:
@@ -286,11 +287,13 @@ def path_of(data: Json) -> Poses:
     right = error > 0 and off >= 0 and (len(times) == len(poses) + 1 > 1)
     need(right and all((s < t for s, t in pairwise(times))), 'not such a path:', data)
     return ((error, off), times, poses)
+def read_json(text: str) -> Json:
+    def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+        need(len({k for k, _ in pairs}) == len(pairs), 'a key is there twice:', pairs); return dict(pairs)
+    return json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
 class Scene:
     def __init__(self, text: str) -> None:
-        def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-            need(len({k for k, _ in pairs}) == len(pairs), 'a key is there twice:', pairs); return dict(pairs)
-        try: data = json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique); self.read(data)
+        try: self.read(read_json(text))
         except (ValueError, RecursionError) as error:
             raise NoProofError(f'the scene is not JSON, or nested too deeply: {error}') from None
     def read(self, data: Json) -> None:
@@ -310,10 +313,10 @@ def is_rational(word: str) -> bool:
     return bool(is_short and re.fullmatch(R, word) and ('/' not in word or under.strip('0')))
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
     rows = []
-    for i, line in enumerate(proof.decode().split('\n'), 1):
+    for i, line in enumerate(proof.split(b'\n'), 1):
         if len(line) > MAX_LINE_BYTES: raise NoProofError(f'line {i} is too long')
-        row = re.findall('[^ \\t\\r]+', line)
-        if row and (not line.startswith('#')):
+        row = re.findall('[^ \\t\\r]+', line.decode())
+        if row and (not line.startswith(b'#')):
             form = FORMS.get(row[0], 'none')
             if not re.fullmatch(form, ' '.join(row)) or not is_bounded(row):
                 raise NoProofError(f'line {i} is not in the format')
@@ -698,16 +701,18 @@ def check_rows(scenes: list[str], rows: list[str]) -> Proved:
 def differs(proved: Proved, answer: bytes) -> str:
     """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
-        data = json.loads(answer, parse_int=Bare, parse_float=Bare)
+        data = read_json(answer.decode("utf-8-sig"))
         if data["contact"] is None:
             return "" if proved.low >= number(data["until"]) else "no contact is the answer of"
         time, kind = data["contact"]["time"], data["contact"]["kind"]
         low, high = (number(time[k]) for k in ("low", "high"))
-        f = Poly(int(number(c)) for c in time["polynomial"])
+        terms = entries(time["polynomial"])
+        need(all(re.fullmatch("-?[0-9]+", c) for c in terms), "no polynomial:", terms)
+        f = Poly(map(int, terms))
         at_low, at_high = (values([f], t)[0] for t in (low, high))
         if not (low == high and f and at_low == 0) and not (low < high and at_low * at_high < 0):
             raise ValueError("no time")
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError, NoProofError) as error:
         raise NoProofError(f"the answer is none of exactpt collide --json: {error!a:.60}") from None
     if not proved.meets or kind == "self":
         return "a contact that is not certified is the answer of"
@@ -751,4 +756,5 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
+    sys.set_int_max_str_digits(0)
     sys.exit(main(sys.argv[1:]))

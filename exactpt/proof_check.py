@@ -403,7 +403,11 @@ def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
     return f + c[0] * (a[1] * b[2] - b[1] * a[2])
 
 
-orientation_of = lru_cache(100_000)(turn)
+@lru_cache(100_000)
+def orientation_of(a: Track, b: Track, c: Track) -> Poly:
+    """Return the polynomial of a turn; its short products are counted here."""
+    WORK.spend(40 * most_words(chain(*a, *b, *c)) ** 2)
+    return turn(a, b, c)
 
 
 def dot_of(a: Triple[Entry], v: Triple[Entry], b: Triple[Entry]) -> Entry:
@@ -446,7 +450,9 @@ def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
 def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
     """Return True if edges (numbers of vertices, counted from the first) meet only at joints."""
     spans, near = [], [((x << 256) // w, (y << 256) // w) for x, y, w in points]
+    product = most_words(chain(*points)) ** 2
     for u, v in edges:
+        WORK.spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0):
             return False
         (x, y), (z, w) = near[u - first], near[v - first]
@@ -460,7 +466,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
             WORK.spend(200)
             if low > top or high < bottom:
                 continue
-            WORK.spend(2000)
+            WORK.spend(2000 + 60 * product)
             if b == c or d == a:  # one of them ends where the other begins
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0:
@@ -472,7 +478,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
 
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     """Return True if a ray from p to the right crosses a polygon an odd number of times."""
-    WORK.spend(300 * len(ring))
+    WORK.spend(len(ring) * (300 + 15 * most_words((*p, *ring[0])) ** 2))
     above, odd = [q[1] * p[2] > p[1] * q[2] for q in ring], False
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]:
@@ -696,9 +702,9 @@ class Body:
 
     def places(self, t: Fraction, motion: Motion | None = None) -> list[Whole]:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
-        WORK.spend(1000 * self.size)
         motion = motion or self.motions[bisect_right(self.ends, t)]
-        a, b, c, d, e, f, w = values(motion.form, t)
+        a, b, c, d, e, f, w = form = values(motion.form, t)
+        WORK.spend(self.size * (1000 + 30 * most_words(form)))
         shape = (values(self.coordinates(i, t), t) for i in range(self.size))
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
 
@@ -730,8 +736,8 @@ class Body:
 
     def keeps_lengths(self, t: Fraction) -> bool:
         """Return True if the body is only translated and rotated just after a time."""
-        WORK.spend(500 * self.size)
         (f, g, h), *others = (self.coordinates(i, t) for i in range(self.size))
+        WORK.spend(self.size * (500 + 8 * most_words(chain(f, g, h)) ** 2))
         same = all((f * w)[1:] == (x * h)[1:] and (g * w)[1:] == (y * h)[1:] for x, y, w in others)
         return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
 
@@ -918,17 +924,22 @@ def series(x: Fraction, bits: int) -> Bounds:
     return Fraction(total - 3 * terms - 4, 2**n), Fraction(total + 3 * terms + 4, 2**n)
 
 
+def read_json(text: str) -> Json:
+    """Return the data of a text in JSON, with numbers as they are written."""
+
+    def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+        need(len({k for k, _ in pairs}) == len(pairs), "a key is there twice:", pairs)
+        return dict(pairs)
+
+    return json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
+
+
 class Scene:
     """All bodies; their vertices are numbered through."""
 
     def __init__(self, text: str) -> None:
-        def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-            need(len({k for k, _ in pairs}) == len(pairs), "a key is there twice:", pairs)
-            return dict(pairs)
-
         try:
-            data = json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
-            self.read(data)
+            self.read(read_json(text))
         except (ValueError, RecursionError) as error:
             raise NoProofError(f"the scene is not JSON, or nested too deeply: {error}") from None
         self.known: tuple[Fraction, dict[int, Point]] = self.start, {}  # own
@@ -966,6 +977,7 @@ class Scene:
             self.known = t, {}
         if v not in self.known[1]:
             x, y, w = self.place(v, t)
+            WORK.spend(200 * most_words((x, y, w)) ** 2)  # uses of it, too
             self.known[1][v] = Fraction(x, w), Fraction(y, w)
         return self.known[1][v]
 
@@ -1211,17 +1223,14 @@ class Checker:
         """Return what is proved."""
         start, end, last, named = self.scene.start, self.end, self.scene.end, set[int]()
         if time is None:
-            rest = (
-                f"; the span of the scene is [{start}, {last}]: nothing is said of ({end}, {last}]"
-            )
-            text = f"no contact in [{start}, {end}]" + (rest if end < last else ", the whole span")
+            rest = f"span of the scene is [{start}, {last}]: nothing is said of ({end}, {last}]"
+            text = f"no contact in [{start}, {end}]"
+            text += f"; the {rest}" if end < last else ", the whole span"
         elif not found:
             text, named = f"contact at the start t = {start}: {what}", self.named
         else:
-            shown = [
-                f"{self.short(u)} {'on edge' if on else 'at'} {self.short(v)}"
-                for u, on, v in sorted(found)
-            ]
+            on = "at", "on edge"
+            shown = [f"{self.short(u)} {on[k]} {self.short(v)}" for u, k, v in sorted(found)]
             text = f"first contact at T = {what}: incidences exactly {', '.join(shown)}"
             named = {self.scene.body_of[v] for u, _, w in found for v in (u, w)}
         names = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in sorted(named))
@@ -1403,8 +1412,8 @@ class Checker:
 
     def direction(self, u: int, v: int, t: Fraction) -> Point:
         """Return the direction from u to v at a rational time."""
-        WORK.spend(4000)
         (a, b), (c, d) = self.scene.at(u, t), self.scene.at(v, t)
+        WORK.spend(4000 + 50 * words(a) * words(c))
         return c - a, d - b
 
     def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
@@ -1451,6 +1460,7 @@ class Checker:
     def incidences(self, darts: set[Dart], time: Time) -> set[Angle]:
         """Return all incidences at a time among the vertices and body edges of half-edges."""
         tracks = self.scene.tracks_at({v for v, _ in darts}, time)
+        WORK.spend(len(tracks) * (2000 + 160 * most_words(chain(*chain(*tracks.values()))) ** 2))
 
         def order(u: int, v: int) -> int:
             x, y = vector_of(tracks[v], tracks[u])
@@ -1520,8 +1530,7 @@ def root_in_words(row: list[str], time: Time, f: Poly) -> str:
     low, high = Fraction(row[0]), Fraction(row[1])
     if low == high:
         return str(low)
-    root = f"the root of {' '.join(map(str, f))} in [{low}, {high}]"
-    return f"{twelve_digits(time)}..., {root}"
+    return f"{twelve_digits(time)}..., the root of {' '.join(map(str, f))} in [{low}, {high}]"
 
 
 # ---- The file.
@@ -1567,11 +1576,11 @@ def is_bounded(row: list[str]) -> bool:
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
     """Return the numbers and words of the lines of a proof, all of which are in the format."""
     rows = []
-    for i, line in enumerate(proof.decode().split("\n"), 1):
+    for i, line in enumerate(proof.split(b"\n"), 1):
         if len(line) > MAX_LINE_BYTES:
             raise NoProofError(f"line {i} is too long")
-        row = re.findall(r"[^ \t\r]+", line)
-        if row and not line.startswith("#"):
+        row = re.findall(r"[^ \t\r]+", line.decode())
+        if row and not line.startswith(b"#"):
             form = FORMS.get(row[0], "none")
             if not re.fullmatch(form, " ".join(row)) or not is_bounded(row):
                 raise NoProofError(f"line {i} is not in the format")
@@ -1625,11 +1634,11 @@ def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
     return paths, given
 
 
-def judge(proved: Proved, given: dict[str, str]) -> None:
+def judge(proved: Proved, given: dict[str, str], answer: bytes) -> None:
     """Check that the statement is the requested one."""
     if "--expect" in given:
-        if reason := differs(proved, Path(given["--expect"]).read_bytes()):
-            raise Rejected(f"rejected: {reason} {given['--expect']!a}; proved is: {proved}")
+        reason = differs(proved, answer)
+        require(not reason, f"rejected: {reason} {given['--expect']!a}; proved is: {proved}")
     elif not proved.whole and "--partial" not in given:
         enough = "--until" in given and Fraction(given["--until"]) <= proved.until
         require(enough, f"rejected: proved up to {proved.until} only (see --until, --partial)")
@@ -1638,36 +1647,37 @@ def judge(proved: Proved, given: dict[str, str]) -> None:
 def differs(proved: Proved, answer: bytes) -> str:
     """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
-        data = json.loads(answer, parse_int=Bare, parse_float=Bare)
+        data = read_json(answer.decode("utf-8-sig"))
         contact, pairs = data["contact"], set[Angle]()
         if contact is None:
             is_same = proved.time is None and proved.until >= number(data["until"])
             return "" if is_same else "no contact is the answer of"
-        f = Poly(int(number(c)) for c in contact["time"]["polynomial"])
+        terms = entries(contact["time"]["polynomial"])
+        need(all(re.fullmatch("-?[0-9]+", c) for c in terms), "no polynomial:", terms)
+        f = Poly(map(int, terms))
         low, high = (number(contact["time"][k]) for k in ("low", "high"))
-        if not f or (low == high and f.sign_at(low)):
-            raise ValueError("no time")
-        bodies = {body.name: body for body in proved.scene.bodies}
-        for pair in contact["pairs"]:
-            a, b = ((bodies[pair[k]["body"]].vertices, pair[k]) for k in "ab")
-            u, v = a[0][int(a[1]["vertex"])], b[0][int(b[1].get("edge", b[1].get("vertex")))]
-            pairs.add((u, 1, v) if "edge" in b[1] else (min(u, v), 0, max(u, v)))
-    except (ValueError, KeyError, TypeError, IndexError, RecursionError, AttributeError) as error:
+        need(f and (low != high or not f.sign_at(low)), "no time:", contact["time"])
+        bodies, is_start = {b.name: b for b in proved.scene.bodies}, contact["kind"] == "initial"
+        for pair in entries(contact["pairs"]):
+            on = "edge" in pair["b"]
+            sides = (pair["a"], "vertex"), (pair["b"], "edge" if on else "vertex")
+            shown = [s[k] for s, k in sides if (type(s["body"]), type(s[k])) == (str, Bare)]
+            need(len(shown) == 2 and all(re.fullmatch(V, i) for i in shown), "no feature:", pair)
+            u, v = (bodies[s["body"]].vertices[int(s[k])] for s, k in sides)
+            pairs.add((u, 1, v) if on else (min(u, v), 0, max(u, v)))
+    except (ValueError, LookupError, TypeError, RecursionError, NoProofError) as error:
         raise NoProofError(f"the answer is none of exactpt collide --json: {error!a:.60}") from None
     if proved.time is None:
         return "a contact is the answer of"
     within = proved.time.compare_rational(low) >= 0 >= proved.time.compare_rational(high)
     if not within or proved.time.sign_of(f) != 0:
         return "another time is the answer of"
-    if contact["kind"] == "initial":
+    if is_start:
         return "" if not proved.incidences else "a contact at the start is the answer of"
     return "" if pairs == proved.incidences else "other incidences are in the answer of"
 
 
-USAGE = (
-    "usage: python3 -I proof_check.py SCENE PROOF [--until T | --partial | --expect ANSWER] "
-    "[--work N], or FOLDER [--until T | --partial] [--work N]"
-)
+USAGE = "usage: SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N], or FOLDER"
 
 
 def main(arguments: list[str]) -> int:
@@ -1677,11 +1687,12 @@ def main(arguments: list[str]) -> int:
             return say(hashlib.sha256(Path(__file__).read_bytes()).hexdigest(), 0, sys.stdout)
         paths, given = wishes(arguments)
         work = int(given["--work"]) if "--work" in given else None
+        answer = file_bytes(Path(given["--expect"])) if "--expect" in given else b""
         if len(paths) == 1:
             proved = check_chain(paths[0], work)
         else:
             proved = check(file_bytes(paths[0]), file_bytes(paths[1]), work)
-        judge(proved, given)
+        judge(proved, given, answer)
         return say(proved, 0, sys.stdout)
     except Rejected as verdict:
         return say(str(verdict), 1, sys.stdout)
@@ -1704,9 +1715,8 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
     """Check ``1.proof`` with ``1.scene.json``, and so on; each begins where the last one ends."""
     if not folder.is_dir():
         raise NoProofError(f"{str(folder)!a} is no folder")
-    numbers = sorted(
-        int(p.stem) for p in folder.glob("*.proof") if re.fullmatch("[1-9][0-9]{0,8}", p.stem)
-    )
+    stems = [path.stem for path in folder.glob("*.proof")]
+    numbers = sorted(int(stem) for stem in stems if re.fullmatch("[1-9][0-9]{0,8}", stem))
     if not numbers or numbers[0] != 1:
         raise NoProofError(f"{str(folder)!a} has no 1.proof")
     require(numbers[-1] == len(numbers), "rejected: the numbers of the parts have a gap")
@@ -1723,8 +1733,7 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
             start = here.start
         else:
             seams += seam(last, proved, k)
-        parts = scene, proof, chain[-1].encode()
-        a, b, before = (hashlib.sha256(part).hexdigest() for part in parts)
+        a, b, before = (hashlib.sha256(x).hexdigest() for x in (scene, proof, chain[-1].encode()))
         chain.append(f"{k} {a} {b} {here.start} {proved.until} {before}")
         last = proved
     manifest = folder / "run.chain"
@@ -1754,9 +1763,8 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
         same = same and are_same(a.places(t), b.places(t))
         require(same, f"rejected: part {k}: {name!a} is not what or where it was")
     come, go = [n for n in new if n not in old], [n for n in old if n not in new]
-    words = [
-        f"{w} {', '.join(map(ascii, ns))}" for w, ns in (("enters", come), ("leaves", go)) if ns
-    ]
+    changes = ("enters", come), ("leaves", go)
+    words = [f"{word} {', '.join(map(ascii, names))}" for word, names in changes if names]
     return [f"at t = {t} {' and '.join(words)}"] if words else []
 
 
@@ -1768,4 +1776,5 @@ def say(text: str, code: int, file: TextIO) -> int:
 
 
 if __name__ == "__main__":
+    sys.set_int_max_str_digits(0)
     sys.exit(main(sys.argv[1:]))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <unordered_map>
 
 #include "faults.hpp"
 #include "sha256.hpp"
@@ -25,12 +26,6 @@ bool are_alike(const Body& a, const Body& b) {
   };
   return a.size == b.size && a.is_polygon == b.is_polygon && a.rings.size() == b.rings.size() &&
          std::equal(a.rings.begin(), a.rings.end(), b.rings.begin(), is_same);
-}
-
-const Body* find(const Scene& scene, const std::string& name) {
-  for (const Body& body : scene.bodies())
-    if (body.name == name) return &body;
-  return nullptr;
 }
 
 // The bodies of one scene that another one has not: " enters 'a', 'b'".
@@ -82,10 +77,13 @@ void Chain::check_seam(const Part& before, const Part& after) {
   if (before.has_contact) throw Rejected(part + " comes after a contact");
   if (before.end != after.start) throw Rejected(part + " does not begin where the last one ends");
   const Rational& t = after.start;
+  std::unordered_map<std::string, const Body*> known;
+  for (const Body& body : before.scene.bodies()) known.emplace(body.name, &body);
   for (const Body& body : after.scene.bodies()) {
-    const Body* old = find(before.scene, body.name);
-    if (old && (!are_alike(*old, body) ||
-                places(before.scene, *old, t) != places(after.scene, body, t)))
+    const auto old = known.find(body.name);
+    if (old != known.end() &&
+        (!are_alike(*old->second, body) ||
+         places(before.scene, *old->second, t) != places(after.scene, body, t)))
       throw Rejected(part + ": " + quoted(body.name) + " is not what or where it was");
   }
   const std::string come = others("enters", after.scene, before.scene);

@@ -1,6 +1,7 @@
 #include "json.hpp"
 
 #include <cctype>
+#include <unordered_set>
 
 #include <nlohmann/json.hpp>
 
@@ -83,8 +84,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool start_array(std::size_t) override { return open(Json::Kind::list); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
-    if (open_.back().find(name))
-      throw NoProof("the scene has a key twice");
+    if (!known_.back().insert(name).second) throw NoProof("the scene has a key twice");
     keys_.back() = name;
     return true;
   }
@@ -105,6 +105,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     if (open_.size() == deepest) throw NoProof("the scene is nested too deeply");
     open_.push_back(named(kind, ""));
     keys_.emplace_back();
+    known_.emplace_back();
     return true;
   }
 
@@ -112,6 +113,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     Json json = std::move(open_.back());
     open_.pop_back();
     keys_.pop_back();
+    known_.pop_back();
     return add(std::move(json));
   }
 
@@ -128,6 +130,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   const std::vector<std::string>& numbers_;
   std::vector<Json> open_;
   std::vector<std::string> keys_;
+  std::vector<std::unordered_set<std::string>> known_;  // the keys of each that is open
 };
 
 }  // namespace

@@ -414,8 +414,9 @@ Rational exact_number(const Json* json) {
   if (json->kind != Json::Kind::number && json->kind != Json::Kind::text)
     throw NoProof("the scene has something that is not a number");
   std::string_view text = json->text;
+  const bool is_short = text.size() <= 3 * most_digits;
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  if (text.size() <= 3 * most_digits) {
+  if (is_short) {
     const auto value = is_fraction(text) ? std::optional(fraction(text)) : decimal(text);
     if (value && !is_long(*value)) return *value;
   }

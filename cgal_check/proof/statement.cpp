@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <unordered_map>
 
 #include "apart.hpp"
 #include "checker.hpp"
@@ -141,20 +142,22 @@ std::string Checker::difference(const std::string& answer) const {
   }
   const auto [f, low, high] = time_in(*contact);
   std::set<Incidence> pairs;
-  const auto incident = [&](const Json& side) {
-    const std::string& name = member(side, "body")->text;
-    for (const Body& body : scene_.bodies()) {
-      if (body.name != name) continue;
-      const bool is_edge = side.find("edge") != nullptr;
-      const int k = number_in(side, is_edge ? "edge" : "vertex");
-      if (k < body.size) return std::pair(body.first + k, is_edge);
-    }
-    throw NoProof("the answer has a body or a feature that the scene has not");
+  std::unordered_map<std::string, const Body*> bodies;
+  for (const Body& body : scene_.bodies()) bodies.emplace(body.name, &body);
+  const auto feature = [&](const Json& side, const char* kind) {
+    const Json* name = member(side, "body");
+    const auto body = bodies.find(name->text);
+    const int k = number_in(side, kind);
+    if (name->kind != Json::Kind::text || body == bodies.end() || k >= body->second->size)
+      throw NoProof("the answer has a body or a feature that the scene has not");
+    return body->second->first + k;
   };
   for (const Json& pair : list(member(*contact, "pairs"))) {
-    const auto [u, is_u_edge] = incident(*member(pair, "a"));
-    const auto [v, is_v_edge] = incident(*member(pair, "b"));
-    pairs.insert(is_v_edge ? Incidence{u, true, v} : Incidence{std::min(u, v), false, std::max(u, v)});
+    const Json& other = *member(pair, "b");
+    const bool is_on_edge = other.find("edge") != nullptr;
+    const int u = feature(*member(pair, "a"), "vertex");
+    const int v = feature(other, is_on_edge ? "edge" : "vertex");
+    pairs.insert(is_on_edge ? Incidence{u, true, v} : Incidence{std::min(u, v), false, std::max(u, v)});
   }
   const bool is_initial = member(*contact, "kind")->text == "initial";
   if (!text_.contact) return "a contact is the answer";

@@ -54,6 +54,12 @@ std::size_t number_of(const std::string& option, const std::string& word, std::s
   return std::stoul(word);
 }
 
+// Whether a fraction has at most 10,000 digits above and below, as in a proof.
+bool is_short(const std::string& text) {
+  const std::size_t over = std::min(text.find('/'), text.size());
+  return over - (text.front() == '-') <= 10'000 && text.size() - over <= 10'001;
+}
+
 Call read_call(const std::vector<std::string>& words) {
   Call call;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -70,7 +76,7 @@ Call read_call(const std::vector<std::string>& words) {
           throw NoProof("--jobs: a number from 1 to " + std::to_string(most_jobs));
       } else if (option == "--work") {
         call.work = static_cast<double>(number_of(option, value, 18));
-      } else if (option == "--until" && is_fraction(value)) {
+      } else if (option == "--until" && is_fraction(value) && is_short(value)) {
         call.until = fraction(value);
       } else if (option == "--expect" && !value.empty()) {
         call.expected = value;

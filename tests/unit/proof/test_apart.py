@@ -599,7 +599,9 @@ EXPECTED = [  # of the bodies TWO, which meet at t = 4, and the exit code
     ({"contact": {"time": time_of(5, 6, -4, 1), "kind": "vertex-edge"}}, 2),  # no root
     ({"contact": {"time": time_of(4, 4, -5, 1), "kind": "vertex-edge"}}, 2),
     ({"contact": {"time": time_of(5, 3, -4, 1), "kind": "vertex-edge"}}, 2),
+    ({"contact": {"time": time_of(4, 4, "-9/2", 1), "kind": "vertex-edge"}}, 2),  # was -4
     ({"contact": {"kind": "vertex-edge"}}, 2),
+    ({"contact": {"time": time_of(4, 4, -4, 1)}}, 2),
     ({}, 2),
 ]
 

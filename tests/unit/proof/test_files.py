@@ -51,6 +51,15 @@ def test_the_checker_is_one_file_of_at_most_1500_lines():
     assert sum(bool(line.strip()) for line in lines) <= 1500
 
 
+def test_bug_a_line_is_measured_in_bytes(monkeypatch):
+    """The checker in Python counted characters, the one in C++ bytes."""
+    monkeypatch.setattr(proof_check, "MAX_LINE_BYTES", 30)
+    head = b"exactpt-proof 1\nscene sha256 x\nspan 0 1\n%s\nnone\n"
+    proof_check.read(head % b"# 2345678901234567890123456789")
+    with pytest.raises(proof_check.NoProofError, match="line 4 is too long"):
+        proof_check.read(head % "# äöüäöüäöüäöüäöüäöü".encode())
+
+
 def test_first_contact_writes_the_proof_and_the_scene(scene, tmp_path):
     path = tmp_path / "answer.proof"
     contact = exactpt.first_contact(scene, proof=path)

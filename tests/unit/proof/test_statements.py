@@ -3,12 +3,14 @@
 import hashlib
 import json
 import subprocess
+import sys
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
-from exactpt import Body, Rigid, Scene, check_apart, first_contact, proof_check, prove
+from exactpt import Body, Rigid, Scene, Translation, check_apart, first_contact, proof_check, prove
 from exactpt.cli import cli
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 
@@ -91,6 +93,59 @@ def test_an_answer_is_compared(answered):
     assert answered(lambda data: data.pop("contact")) == 2
 
 
+def test_bug_an_answer_is_read_strictly(answered):
+    """Without "kind" the checker in Python ended with a traceback; it took -1 for the last vertex,
+    "0" for 0 and 5/2 for 2, and the one in C++ an edge for a vertex."""
+
+    def in_first(side, **new):
+        return lambda data: data["contact"]["pairs"][0][side].update(new)
+
+    def in_time(**new):
+        return lambda data: data["contact"]["time"].update(new)
+
+    assert answered(lambda data: data["contact"].pop("kind")) == 2
+    assert answered(lambda data: data["contact"].update(pairs={})) == 2
+    for vertex in (-1, "0", 0.0, True, None, [0], "0_0"):
+        assert answered(in_first("a", vertex=vertex)) == 2, vertex
+    assert answered(lambda data: data["contact"]["pairs"][0]["a"].pop("vertex")) == 2
+    for polynomial in (["-249/1", "155"], ["-249.5", "155"], ["+249", "155"], "1", [[1]]):
+        assert answered(in_time(polynomial=polynomial)) == 2, polynomial
+    assert answered(in_time(low=[1])) == 2
+    assert answered(in_first("a", body=5)) == 2
+
+
+def test_bug_an_answer_with_a_key_twice_is_none(program, tmp_path, capsys):
+    proved = prove(Scene([Body("a", [(0, 0)])], (0, 10)))
+    proved.save(tmp_path / "p")
+    answer = tmp_path / "answer.json"
+    call = [str(tmp_path / "p.scene.json"), str(tmp_path / "p"), "--expect", str(answer)]
+    right = b'{"contact": null, "until": "10"}'
+    answers = (right, 0), (b'{"contact": null, "until": "11", "until": "10"}', 2)
+    for content, code in (*answers, (right.decode().encode("utf-16"), 2), (None, 2)):
+        answer.unlink() if content is None else answer.write_bytes(content)
+        done = subprocess.run([program, "proof", *call], capture_output=True, check=False)
+        assert proof_check.main(call) == done.returncode == code, capsys.readouterr()
+
+
+def test_bug_an_answer_that_is_missing_is_bad_input_of_a_wrong_proof_too(program, tmp_path):
+    scene = Scene([Body("a", [(0, 0)]), Body("b", [(1, 0)])], (0, 10))
+    lines = ["proof", "span 0 10", "outer 0 1", "contact 1 1 vertex 0 vertex 1"]
+    missing = str(tmp_path / "answer.json")
+    assert run_both(program, tmp_path, scene, lines, "--expect", missing) == (2, 2)
+
+
+def test_bug_until_has_the_bounds_of_a_number_in_a_proof(program, tmp_path):
+    """With more than 4,300 digits the checker in Python refused it, the one in C++ any number."""
+    scene = Scene([Body("a", [(0, 0)])], (0, 10))
+    lines = ["proof", f"span 0 {'9' * 5000}/{'9' * 4999}1", "outer 0", "none"]
+    for until, code in ((f"1/{'1' * 5000}", 0), (f"1/{'1' * 10001}", 2), ("0" * 10001, 2)):
+        in_cpp = run_both(program, tmp_path, scene, lines, "--until", until)[1]
+        file = Path(proof_check.__file__)
+        call = [sys.executable, "-I", file, tmp_path / "s.json", tmp_path / "p", "--until", until]
+        in_python = subprocess.run(call, capture_output=True, check=False).returncode
+        assert (in_python, in_cpp) == (code, code), until
+
+
 def test_a_budget_of_work(program, tmp_path, capsys):
     proved = prove(generate("stars", 6))
     proved.save(tmp_path / "p")
@@ -154,6 +209,26 @@ def test_bug_values_at_long_times_are_counted(program, tmp_path):
     ]
     lines = ["apart", f"span {start} 1", "c 1 0 5", "none"]
     assert run_both(program, tmp_path, Scene(bodies, (start, end)), lines) == (4, 4)
+
+
+def test_bug_places_of_long_numbers_are_counted():
+    """Many small vertices with one long translation: whether edges meet took minutes in Python."""
+    long = Fraction(3**9000, 7**5000)
+    for closed in (True, False):
+        body = Body("a", [(k, k * k) for k in range(60)], Translation([long]), closed=closed)
+        scene = json.dumps(Scene([body], (0, 1)).to_json())
+        proof_check.WORK.start(20_000_000, 0)
+        with pytest.raises(proof_check.Exhausted):
+            proof_check.Scene(scene)
+
+
+def test_bug_short_products_of_long_numbers_are_counted():
+    track = tuple(proof_check.Poly([n]) for n in (3**9000, 5**9000, 1))
+    other = tuple(proof_check.Poly([n]) for n in (7**9000, 2**9000, 1))
+    proof_check.WORK.start(1_000_000, 0)
+    proof_check.orientation_of.cache_clear()
+    with pytest.raises(proof_check.Exhausted):
+        proof_check.orientation_of(track, other, track)
 
 
 def test_bug_pieces_of_many_vertices_are_counted(program, tmp_path):
