@@ -701,7 +701,7 @@ def check_rows(scenes: list[str], rows: list[str]) -> Proved:
 def differs(proved: Proved, answer: bytes) -> str:
     """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
-        data = read_json(answer.decode("utf-8-sig"))
+        check_json(data := read_json(answer.decode("utf-8-sig")), 32)
         if data["contact"] is None:
             return "" if proved.low >= number(data["until"]) else "no contact is the answer of"
         time, kind = data["contact"]["time"], data["contact"]["kind"]

@@ -1647,7 +1647,7 @@ def judge(proved: Proved, given: dict[str, str], answer: bytes) -> None:
 def differs(proved: Proved, answer: bytes) -> str:
     """Return how the output of `exactpt collide --json` differs from the statement; "" if not."""
     try:
-        data = read_json(answer.decode("utf-8-sig"))
+        check_json(data := read_json(answer.decode("utf-8-sig")), 32)
         contact, pairs = data["contact"], set[Angle]()
         if contact is None:
             is_same = proved.time is None and proved.until >= number(data["until"])

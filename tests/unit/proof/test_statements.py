@@ -114,15 +114,18 @@ def test_bug_an_answer_is_read_strictly(answered):
     assert answered(in_first("a", body=5)) == 2
 
 
-def test_bug_an_answer_with_a_key_twice_is_none(program, tmp_path, capsys):
+def test_bug_an_answer_is_json_as_a_scene_is(program, tmp_path, capsys):
     proved = prove(Scene([Body("a", [(0, 0)])], (0, 10)))
     proved.save(tmp_path / "p")
     answer = tmp_path / "answer.json"
     call = [str(tmp_path / "p.scene.json"), str(tmp_path / "p"), "--expect", str(answer)]
     right = b'{"contact": null, "until": "10"}'
-    answers = (right, 0), (b'{"contact": null, "until": "11", "until": "10"}', 2)
-    for content, code in (*answers, (right.decode().encode("utf-16"), 2), (None, 2)):
-        answer.unlink() if content is None else answer.write_bytes(content)
+    wrong = [right.replace(b"}", b', "x": %s}' % x) for x in (b"NaN", b"[" * 32 + b"]" * 32)]
+    wrong += [right.replace(b"}", b', "until": "10"}'), right.replace(b"}", b', "x": "\\ud800"}')]
+    wrong += [right.decode().encode("utf-16"), b""]
+    deep = right.replace(b"}", b', "x": %s}' % (b"[" * 31 + b"]" * 31))
+    for content, code in ((right, 0), (deep, 0), *((content, 2) for content in wrong)):
+        answer.write_bytes(content)
         done = subprocess.run([program, "proof", *call], capture_output=True, check=False)
         assert proof_check.main(call) == done.returncode == code, capsys.readouterr()
 
