@@ -406,7 +406,7 @@ def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
 @lru_cache(100_000)
 def orientation_of(a: Track, b: Track, c: Track) -> Poly:
     """Return the polynomial of a turn; its short products are counted here."""
-    WORK.spend(40 * most_words(chain(*a, *b, *c)) ** 2)
+    WORK.spend(40 * ((max(map(int.bit_length, chain(*a, *b, *c))) >> 6) + 1) ** 2)
     return turn(a, b, c)
 
 
