@@ -3,14 +3,12 @@
     python3 -I proof_check.py SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N]
     python3 -I proof_check.py FOLDER [--until T | --partial] [--work N]
 
-This file imports the standard library alone, and uses no floats to decide anything. The
-statement, the file format and the complete argument are in docs/proofs.md.
+It imports the standard library alone and uses no floats. docs/proofs.md has the whole argument.
 
 A proof of no contact that ends before the scene is accepted by --until T, T not after its end, or
 by --partial. --expect compares with `exactpt collide --json`.
 
-Without -I, Python runs a file called fractions.py that lies in the current folder or beside this
-one; so this file refuses to run then.
+Without -I, Python would run a fractions.py that lies nearby; so this file refuses to run then.
 
 Exit code: 0 accepted, 1 rejected (with the first line that fails, or what is proved and is not
 what was wanted), 2 no proof of this scene, 4 not decided: the budget of work is used up.
@@ -376,8 +374,7 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     low, high = start.low, end.high
     if f.variations(low, high) == 0:
         return False, end.low == high and f.sign_at(high) == 0
-    roots = list(f.square_free().roots(low, high))
-    after = [root.compare(end) for root in roots if root.compare(start) > 0]
+    after = [r.compare(end) for r in f.square_free().roots(low, high) if r.compare(start) > 0]
     return -1 in after, 0 in after
 
 
@@ -1626,10 +1623,10 @@ def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
             given[word] = "" if word == "--partial" else next(rest, "-")
         else:
             paths.append(Path(word))
-    is_work = re.fullmatch("[0-9]{1,18}", given.get("--work", "0"))
-    ok = is_work and is_rational(given.get("--until", "0"))
+    until, work = given.get("--until", "0"), given.get("--work", "0")
     one = len(given.keys() - {"--work"}) <= 1 and not any(str(p)[:2] == "--" for p in paths)
-    if not ok or not one or len(paths) not in (1, 2) or (len(paths) == 1 and "--expect" in given):
+    ok = one and is_rational(until) and re.fullmatch("[0-9]{1,18}", work)
+    if not ok or len(paths) not in (1, 2) or (len(paths) == 1 and "--expect" in given):
         raise NoProofError(USAGE)
     return paths, given
 
@@ -1694,10 +1691,8 @@ def main(arguments: list[str]) -> int:
             proved = check(file_bytes(paths[0]), file_bytes(paths[1]), work)
         judge(proved, given, answer)
         return say(proved, 0, sys.stdout)
-    except Rejected as verdict:
-        return say(str(verdict), 1, sys.stdout)
-    except Exhausted as verdict:
-        return say(str(verdict), 4, sys.stdout)
+    except (Rejected, Exhausted) as verdict:
+        return say(str(verdict), 1 if isinstance(verdict, Rejected) else 4, sys.stdout)
     except (NoProofError, OSError, ValueError) as error:
         return say(str(error), 2, sys.stderr)
 
@@ -1757,9 +1752,8 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
     old, new = ({body.name: body for body in p.scene.bodies} for p in (before, after))
     for name in [name for name in new if name in old]:
         a, b = old[name], new[name]
-        same = [r.start - a.first for r, _ in a.rings] == [r.start - b.first for r, _ in b.rings]
-        same = same and [h for _, h in a.rings] == [h for _, h in b.rings]
-        same = same and a.closed == b.closed and a.size == b.size
+        one, other = ([(r.start - x.first, h) for r, h in x.rings] for x in (a, b))
+        same = one == other and a.closed == b.closed and a.size == b.size
         same = same and are_same(a.places(t), b.places(t))
         require(same, f"rejected: part {k}: {name!a} is not what or where it was")
     come, go = [n for n in new if n not in old], [n for n in old if n not in new]
