@@ -1410,7 +1410,7 @@ class Checker:
     def direction(self, u: int, v: int, t: Fraction) -> Point:
         """Return the direction from u to v at a rational time."""
         (a, b), (c, d) = self.scene.at(u, t), self.scene.at(v, t)
-        WORK.spend(4000 + 50 * words(a) * words(c))
+        WORK.spend(4000 + 50 * most_words((a, c)) ** 2)
         return c - a, d - b
 
     def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
