@@ -19,6 +19,8 @@ def warn_renamed(old: str, new: str, stacklevel: int = 3) -> None:
 def renamed(**names: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Return a decorator that accepts former keywords, with a `DeprecationWarning`.
 
+    The attribute ``renamed`` of the function has them.
+
     Args:
         names: for each former keyword the one of today.
     """
@@ -31,6 +33,7 @@ def renamed(**names: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
                 keywords[names[old]] = keywords.pop(old)
             return function(*args, **keywords)
 
+        vars(call)["renamed"] = names
         return call
 
     return decorate

@@ -75,8 +75,8 @@ def test_an_example_runs(line, tmp_path, monkeypatch, request):
     (tmp_path / "scene.json").write_text(scene)
     if line == "exactpt check folder":
         list(Simulation(Scene.load("scene.json"), proof=tmp_path / "folder").run())
-    if line == "exactpt check answer.apart":
-        first_contact(Scene.load("scene.json"), certificate=tmp_path / "answer.apart")
+    if line == "exactpt check contact.apart":
+        first_contact(Scene.load("scene.json"), certificate=tmp_path / "contact.apart")
 
     code = code_of(*shlex.split(line)[1:])
 
