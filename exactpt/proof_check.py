@@ -804,6 +804,7 @@ def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], spin: Point) -
 
 def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool:
     """Return True if this shows it of one piece and its span."""
+    WORK.spend(1000 * most_words((omega,)) ** 2)
     (h, turned, _), (a, b) = turn, span
     slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - Poly([omega]) * (ONE + h * h)
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
@@ -811,10 +812,9 @@ def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool
     bits = bits_for(error, omega * max(abs(a), abs(b)))
     if bits > MAX_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
         return False
-    (low, high), gaps = angle_of(turned, bits + 8), list[Bounds]()
-    for t in times:
-        p, q = arctan(h.value(t), bits + 8)
-        gaps.append((low + 2 * p - omega * t, high + 2 * q - omega * t))
+    low, high = angle_of(turned, bits + 8)
+    arcs = ((t, *arctan(h.value(t), bits + 8)) for t in times)
+    gaps = [(low + 2 * p - omega * t, high + 2 * q - omega * t) for t, p, q in arcs]
     return largest_gap(gaps, bits + 8) + between <= error
 
 

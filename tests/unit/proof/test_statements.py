@@ -234,6 +234,16 @@ def test_bug_short_products_of_long_numbers_are_counted():
         proof_check.orientation_of(track, other, track)
 
 
+def test_bug_a_long_rate_of_a_spin_is_counted():
+    """2,000 such pieces took 16 seconds before the budget was used up."""
+    turn = (proof_check.Poly([0]), (1, 0), None)
+    proof_check.WORK.start(100_000_000, 0)
+    with pytest.raises(proof_check.Exhausted):
+        proof_check.turns_in(
+            turn, (Fraction(0), Fraction(1)), Fraction(1, 3**20000), Fraction(1, 3)
+        )
+
+
 def test_bug_pieces_of_many_vertices_are_counted(program, tmp_path):
     """Each piece of a motion has a track of each vertex."""
     polygon = [[k, k * k] for k in range(1500)]
