@@ -29,6 +29,8 @@ def renamed(**names: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         @wraps(function)
         def call(*args: P.args, **keywords: P.kwargs) -> R:
             for old in keywords.keys() & names.keys():
+                if names[old] in keywords:
+                    raise TypeError(f"{function.__qualname__}({old}=, {names[old]}=): both are one")
                 warn_renamed(f"{function.__qualname__}({old}=)", names[old])
                 keywords[names[old]] = keywords.pop(old)
             return function(*args, **keywords)

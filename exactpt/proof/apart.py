@@ -110,6 +110,7 @@ class Separation:
         breaks = {q for i in bodies for q in self._paths.breaks[i].breaks if start < q < end}
         return min(breaks, key=lambda q: (abs(q - middle), q)) if breaks else middle
 
+    @np.errstate(all="ignore")
     def _between_bodies(
         self, frame: Frame, items: Items, present: set[int]
     ) -> tuple[Plane, Any, Any] | None:

@@ -10,6 +10,7 @@ import json
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.check_apart import WORK, Rejected
@@ -185,8 +186,15 @@ class _Certificate:
         self._file, self._distance = file, distance
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._selection = selection
-        self._paths = Paths(scene.bodies, distance)
-        self._meetings = Meetings(self._paths)
+        self._bodies = scene.bodies
+
+    @cached_property
+    def _paths(self) -> Paths:
+        return Paths(self._bodies, self._distance)
+
+    @cached_property
+    def _meetings(self) -> Meetings:
+        return Meetings(self._paths)
 
     def _counts(self, bodies: set[int]) -> bool:
         """See `exactpt.check_apart.Checker.count`."""
@@ -243,7 +251,11 @@ class _Certificate:
         pairs |= {(self._number[a], self._number[b]) for a, b in names}
         if not pairs:
             raise InputError("there is no certificate of a contact of a body with itself")
-        time.refine_to(QQ((self.end - start) / 2 ** (NEAR + 5)))
+        width = QQ((self.end - start) / 2 ** (NEAR + 5))
+        time.refine_to(width)
+        while time._low <= start and time.compare_rational(start) > 0:
+            width /= 2**16
+            time.refine_to(width)
         low, high = fraction(time._low), fraction(time._high)
         if high == start:
             return [self._meetings.at(sorted(pairs), touches, start)], start

@@ -33,6 +33,12 @@ Coordinates of control points are within 4 * 2^-53 of the size: correctly rounde
 sums of two or three doubles near numbers that are not larger than it. A test is a sum of four
 products: its error is below 16 * 2^-53 of that sum.
 """
+TINY: Final = 2.0**-1060
+"""Bound of the error of a test by underflow, relative to the sum of |n|, |v|, the length and 1.
+
+Numbers below 2^-1022 are within 2^-1075 (four of a control point, times |n|; a time, times |v|; v,
+times the length; c, and the products).
+"""
 EXACT: Final = 2**53
 """Integers up to this size are doubles."""
 
@@ -198,6 +204,7 @@ class Frame:
         at = plane.c + plane.v * self.start if plane.v and self.start else plane.c
         v, c = float(plane.v), float(at - (plane.x * self._origin[0] + plane.y * self._origin[1]))
         norm = math.hypot(x, y)
-        error = (abs(x) + abs(y)) * self._size + abs(v) * self.length + abs(c)
-        error = ERROR * (error + norm * (self._paths.widest + extra))
+        size = (abs(x) + abs(y)) * self._size + abs(v) * self.length + abs(c)
+        error = ERROR * (size + norm * (self._paths.widest + extra))
+        error += TINY * (abs(x) + abs(y) + abs(v) + self.length + 1)
         return self._points @ np.array([x, y, -v]) - c, norm, error

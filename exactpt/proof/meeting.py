@@ -11,6 +11,7 @@ import numpy as np
 
 from exactpt.check_apart import Poly, Rejected, Whole, are_near, require_passage, surrounds
 from exactpt.motion.incidence import Touch
+from exactpt.proof.frame import TINY
 from exactpt.proof.paths import Paths
 
 
@@ -95,6 +96,7 @@ def _candidates(
     low, high = ([e.min(axis=1) for e in ends], [e.max(axis=1) for e in ends])
     gaps = np.maximum(low[0][:, None] - high[1], low[1] - high[0][:, None]).clip(0)
     apart = np.hypot(gaps[..., 0], gaps[..., 1])
-    near = apart <= far + 1e-9 * (far + max(float(np.abs(e).max()) for e in ends))
+    size = far + max(float(np.abs(e).max()) for e in ends)
+    near = apart <= far + 1e-9 * size + TINY  # the exact test decides about these
     order = sorted(np.argwhere(near).tolist(), key=lambda km: float(apart[km[0], km[1]]))
     return [(one[k], other[m]) for k, m in order]

@@ -74,7 +74,10 @@ class Paths:
             self.first_item.append(len(self.items))
         self.body = np.array([i for i, _, _ in self.items], dtype=np.intp)
         self.wide_bodies = np.array([float(r) for r in self.radii])
-        self.wide, self.widest = self.wide_bodies[self.body], float(self.wide_bodies.max())
+        self.wide, self.widest = (
+            self.wide_bodies[self.body],
+            float(self.wide_bodies.max(initial=0.0)),
+        )
         self._made = dict[tuple[int, int], Any]()
 
     def of(self, v: int) -> Breaks:

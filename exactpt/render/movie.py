@@ -64,10 +64,12 @@ def write_movie(
         InputError: if Pillow or imageio-ffmpeg is not installed; the message has the command to
             install them. Without frames, or if there are more than 100,000.
     """
-    fps = RATE if fps is None else fps
-    count = round(rational(SECONDS if seconds is None else seconds) * rational(fps))
-    if not (0 < count < MOST and fps >= 1):
-        raise InputError(f"{path}: a film has from 1 to {MOST} frames, and 1 or more in a second")
+    rate = rational(RATE if fps is None else fps)
+    count = round(rational(SECONDS if seconds is None else seconds) * rate)
+    if not (0 < count < MOST and rate >= 1 and rate.denominator == 1):
+        raise InputError(
+            f"{path}: a film has from 1 to {MOST} frames, a whole number of them in a second"
+        )
     try:
         from exactpt.render.raster import image_of
 
@@ -75,9 +77,9 @@ def write_movie(
         counted = _counted(images, count + 1, done)
         if path.suffix.lower() == ".gif":
             some = [image_of(frame, theme) for frame in frames_of(film, SAMPLES)]
-            _write_gif(counted, some, path, fps)
+            _write_gif(counted, some, path, int(rate))
         else:
-            _write_mp4(counted, path, fps)
+            _write_mp4(counted, path, int(rate))
     except ImportError as error:
         raise InputError(
             f"a GIF needs Pillow, an MP4 imageio-ffmpeg too; there is no module {error.name}: "

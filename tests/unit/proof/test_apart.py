@@ -703,3 +703,47 @@ def test_sums_and_squares_beyond_the_doubles_warn_of_nothing(power):
     rising = Body("a", [(0, 0), (s, 0), (s // 2, s)], Translation([0, s]))
     with pytest.raises(BudgetExceeded, match="too near to each other"):
         exactpt.certify(Scene([rising, left, right], time=(0, 1)))
+
+
+def certificate_by(*given, time=("0", "1"), **options):
+    return exactpt.certify(Scene.from_json(json.loads(scene_file(*given, time=time))), **options)
+
+
+@pytest.mark.parametrize(
+    ("x", "wall"),
+    [(["-1", "3", "-3", "1"], "2e-75"), ([str(n * 10**54) for n in (-1, 3, -3, 1)], "2")],
+)
+def test_bug_an_irrational_contact_just_after_the_start_is_certified(x, wall):
+    """Its enclosure began at the start, and the certificate had no node."""
+    point = {"name": "p", "vertices": [["0", "0"]], "motion": {"x": x}}
+    other = {"name": "q", "vertices": [[wall, "-1"], [wall, "1"]]}
+    assert " through " in said(certificate_by(point, other, time=["1", "2"]))
+
+
+def test_bug_a_scene_without_bodies_is_certified():
+    assert (
+        said(certificate_by(time=[0, 1])) == "no two bodies share a point in [0, 1], the whole span"
+    )
+
+
+def test_bug_a_radius_or_distance_beyond_doubles_is_a_spent_budget():
+    disc = {"name": "p", "vertices": [["0", "0"]], "radius": "1e309"}
+    other = {"name": "q", "vertices": [["3e309", "0"]]}
+    with pytest.raises(BudgetExceeded, match="out of the range of doubles"):
+        certificate_by(disc, other)
+    with pytest.raises(BudgetExceeded, match="out of the range of doubles"):
+        exactpt.certify(PAST, distance=10**309)
+
+
+def test_bug_numbers_near_the_largest_double_cause_no_warning(recwarn):
+    point = {"name": "p", "vertices": [["0", "0"]], "motion": {"x": ["0", "1e308"]}}
+    other = {"name": "q", "vertices": [["0", "1"], ["9", "1"]], "motion": {"x": ["0", "1.5e308"]}}
+    said(certificate_by(point, other))
+    assert not recwarn.list
+
+
+def test_bug_tiny_bodies_that_overlap_at_the_start_are_found():
+    """A filter by doubles lost the pair."""
+    disc = {"name": "p", "vertices": [["2e-324", "0"]], "radius": "1e-324"}
+    other = {"name": "q", "vertices": [["2.5e-324", "0"], ["2.5e-324", "1"]], "radius": "1.4e-324"}
+    assert said(certificate_by(disc, other)).endswith("at t = 0 (b0 is 'p', b1 is 'q')")

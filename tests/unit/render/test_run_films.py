@@ -163,7 +163,7 @@ def test_frames_of_a_film_look_like_their_svg_pictures(theme):
         assert sum(apart.convert("L").histogram()[96:]) < image.width * image.height / 250
 
 
-@pytest.mark.parametrize("options", [{"seconds": 0}, {"fps": 0}, {"seconds": 10**5}])
+@pytest.mark.parametrize("options", [{"seconds": 0}, {"fps": 0}, {"fps": 2.5}, {"seconds": 10**5}])
 def test_films_without_frames_are_refused(tmp_path, options):
     with pytest.raises(InputError, match="a film has from 1 to 100000 frames"):
         small().draw(tmp_path / "film.gif", **options)

@@ -201,6 +201,8 @@ def test_former_keyword_plan_works_with_a_warning():
     runs[0].set_motion("a", motion=turned)
     with pytest.warns(DeprecationWarning, match=r"set_motion\(plan=\): the name is motion now"):
         runs[1].set_motion("a", plan=turned)
+    with pytest.raises(TypeError, match="both are one"):
+        runs[1].set_motion("a", plan=turned, motion=turned)
     with pytest.warns(DeprecationWarning, match=r"set_motions\(plans=\): the name is motions now"):
         runs[2].set_motions(plans={"a": turned})
 
