@@ -1627,7 +1627,7 @@ def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
     one = len(given.keys() - {"--work"}) <= 1 and not any(str(p)[:2] == "--" for p in paths)
     ok = one and is_rational(until) and re.fullmatch("[0-9]{1,18}", work)
     if not ok or len(paths) not in (1, 2) or (len(paths) == 1 and "--expect" in given):
-        raise NoProofError(USAGE)
+        raise NoProofError(f"usage: {USAGE}")
     return paths, given
 
 
@@ -1674,7 +1674,7 @@ def differs(proved: Proved, answer: bytes) -> str:
     return "" if pairs == proved.incidences else "other incidences are in the answer of"
 
 
-USAGE = "usage: SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N], or FOLDER"
+USAGE = "python3 -I FILE SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N] or FOLDER"
 
 
 def main(arguments: list[str]) -> int:

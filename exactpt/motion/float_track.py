@@ -23,7 +23,7 @@ CANCELLING: Final = 64.0
 class Arm:
     """A trajectory as that of a pivot and an arm that turns: p(t) + r(t) / w(t).
 
-    It is normalised as an `FloatTrack` is; the relative error of each coefficient is at most one
+    It is normalised as a `FloatTrack` is; the relative error of each coefficient is at most one
     unit. Vertices of one rigid motion have the same p and w.
 
     Attributes:
