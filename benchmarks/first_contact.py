@@ -270,7 +270,7 @@ def _row(method: Method, result: _Result) -> Row:
         "setting": method.setting,
         "scenes": len(result.seconds),
         "seconds": median(result.seconds),
-        "error": max(result.errors, default=None),
+        "error": "missed" if result.missed else max(result.errors, default=None),
         "missed": result.missed,
         "invented": result.invented,
     }

@@ -3,8 +3,13 @@
 A page has, on a line of its own, ``<!-- table FOLDER/FILE.csv: VIEW -->``; FOLDER is in docs/data
 and was the output of ``python -m benchmarks NAME -o docs/data/FOLDER``. The lines from there to
 ``<!-- end of table -->`` are replaced by the table, and by the date, the commit and the machine of
-FOLDER/machine.txt. VIEW names columns, or is ``ROWS by COLUMNS, VALUE``: one line for each value of
-the column ROWS, one column for each of COLUMNS. A column with `` %`` after its name is a share.
+FOLDER/machine.txt.
+
+VIEW is ``COLUMNS``, separated by commas, or ``ROWS by COLUMNS, CELL``: one line for each value of
+the columns ROWS, one column for each value of COLUMNS (each of them one name, or some joined by
+``&``). CELL is a column, or a template as ``{seconds}, {error}``. A column with `` %`` after its
+name is a share; ``NAME = TITLE`` is a column with a title of its own. ``; where NAME = VALUE /
+VALUE`` after a view selects rows, as often as needed.
 """
 
 from __future__ import annotations
@@ -12,9 +17,11 @@ from __future__ import annotations
 import csv
 import re
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 DOCS: Final = Path(__file__).parent
+Row: TypeAlias = dict[str, str]
+
 MARKED: Final = re.compile(
     r"(<!-- table ([^:\n]+): ([^\n]+) -->\n).*?(<!-- end of table -->)", re.DOTALL
 )
@@ -29,26 +36,54 @@ def _table(name: str, view: str) -> str:
     path = DOCS / "data" / name
     with path.open(encoding="utf-8", newline="") as file:
         found = list(csv.DictReader(file))
-    if " by " in view:
-        index, rest = view.split(" by ")
-        across, value = rest.split(", ")
-        share = value.endswith(" %")
-        columns = [index, *dict.fromkeys(row[across] for row in found)]
-        lines: dict[str, dict[str, str]] = {}
-        for row in found:
-            cell = _percent(row[value[:-2]]) if share else row[value]
-            lines.setdefault(row[index], {index: row[index]})[row[across]] = cell
-        rows = list(lines.values())
-    else:
-        columns, rows = view.split(", "), found
-    cells = [columns, *([_shown(row.get(column, "")) for column in columns] for row in rows)]
+    view, *conditions = view.split("; where ")
+    for condition in conditions:
+        column, values = condition.split(" = ")
+        found = [row for row in found if row[column] in values.split(" / ")]
+    lines = _pivot(view, found) if " by " in view else _columns(view, found)
     words = [
         any(cell and not cell[0].isdigit() for cell in line[1:])
-        for line in zip(*cells, strict=True)
+        for line in zip(*lines, strict=True)
     ]
     rule = ["---" if left else "---:" for left in words]
-    text = [f"| {' | '.join(line)} |" for line in (cells[0], rule, *cells[1:])]
+    text = [f"| {' | '.join(line)} |" for line in (lines[0], rule, *lines[1:])]
     return "\n".join([*text, "", _measured(path.parent / "machine.txt")])
+
+
+def _columns(view: str, found: list[Row]) -> list[list[str]]:
+    """Return the title and the cells of each line, one for each row of the file."""
+    columns = [column.split(" = ") for column in view.split(", ")]
+    return [
+        [column[-1].removesuffix(" %") for column in columns],
+        *([_cell(column[0], row) for column in columns] for row in found),
+    ]
+
+
+def _pivot(view: str, found: list[Row]) -> list[list[str]]:
+    """Return the title and the cells of each line, one for each value of some columns."""
+    rows, rest = view.split(" by ")
+    columns, cell = rest.split(", ", 1)
+    index, across = rows.split(" & "), columns.split(" & ")
+    lines: dict[tuple[str, ...], dict[str, str]] = {}
+    for row in found:
+        head = ", ".join(filter(None, (row[name] for name in across)))
+        key = tuple(_cell(name, row) for name in index)
+        lines.setdefault(key, {})[head] = _cell(cell, row)
+    heads = list(dict.fromkeys(head for line in lines.values() for head in line))
+    return [
+        [*index, *map(_shown, heads)],
+        *([*key, *(line.get(head, "") for head in heads)] for key, line in lines.items()),
+    ]
+
+
+def _cell(view: str, row: Row) -> str:
+    """Return the text for a column, a share or a template; one 0 where a template has only such."""
+    if "{" in view:
+        text = re.sub(r"\{([^}]+)\}", lambda m: _cell(m[1], row), view).removesuffix(", ")
+        return "0" if re.fullmatch(r"0( / 0)*", text) else text
+    if view.endswith(" %"):
+        return _percent(row[view[:-2]])
+    return _shown(row[view])
 
 
 def _measured(path: Path) -> str:

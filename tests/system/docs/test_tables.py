@@ -33,15 +33,23 @@ def test_every_file_of_data_has_a_date_a_commit_and_a_table():
     "view, lines",
     [
         ("name, count", ["| name | count |", "| --- | ---: |", "| a | 1,234 |", "| b | 0.125 |"]),
-        ("name by count, share %", ["| name | 1234 | 0.125 |", "| --- | ---: | ---: |",
+        ("name = of, share % = part",
+         ["| of | part |", "| --- | ---: |", "| a | 50.0 % |", "| b |  |"]),
+        ("name; where count = 0.125 / 7; where name = b", ["| name |", "| --- |", "| b |"]),
+        ("name by count, share %", ["| name | 1,234 | 0.125 |", "| --- | ---: | ---: |",
                                     "| a | 50.0 % |  |", "| b |  |  |"]),
+        ("name & share by count & name, {count} / {zero}",
+         ["| name | share | 1234, a | 0.125, b |", "| --- | ---: | ---: | ---: |",
+          "| a | 0.5 | 1,234 / 0 |  |", "| b |  |  | 0.125 / 0 |"]),
+        ("name by zero, {zero} / {zero}",
+         ["| name | 0 |", "| --- | ---: |", "| a | 0 |", "| b | 0 |"]),
     ],
 )  # fmt: skip
 def test_a_table_is_made_anew(view, lines, tmp_path, monkeypatch):
     monkeypatch.setattr("docs.make_tables.DOCS", tmp_path)
     folder = tmp_path / "data" / "x"
     folder.mkdir(parents=True)
-    (folder / "x.csv").write_text("name,count,share\na,1234,0.5\nb,0.125,\n")
+    (folder / "x.csv").write_text("name,count,share,zero\na,1234,0.5,0\nb,0.125,,0\n")
     (folder / "machine.txt").write_text("P, 2 processors\nbuild\nmeasured on D\nPython 3\nseed 0\n")
 
     page = filled(f"before\n<!-- table x/x.csv: {view} -->\nold\n<!-- end of table -->\nafter\n")
