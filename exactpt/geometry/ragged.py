@@ -11,6 +11,7 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.geometry.edge_pairs import near_edges
 from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, TINY, U
 
@@ -19,7 +20,7 @@ Flags: TypeAlias = NDArray[np.bool_]
 K: Final = 8.0 * U
 """Relative bound on the rounding of an orientation: see `segments_meet`."""
 MAX_EDGES: Final = 64
-"""Maximum number of edges of a body whose pairs of edges are all tested here."""
+"""Maximum number of edges of a body whose pairs of edges are all compared."""
 _CHUNK: Final = 1 << 16
 """Maximum number of pairs of edges in a chunk."""
 
@@ -148,7 +149,8 @@ def surely_simple(
     """
     sizes = np.diff(offsets)
     edges = edges_of(offsets, closed)
-    d = vertices[edges.last] - vertices[edges.first]
+    first, last = vertices[edges.first], vertices[edges.last]
+    d = last - first
     dx, dy = d[:, 0], d[:, 1]
     before = np.arange(len(d)) - 1
     before[edges.offsets[:-1]] = edges.offsets[1:] - 1
@@ -171,16 +173,22 @@ def surely_simple(
     inner[starts[~rings]] = True  # a chain does not turn at its ends
     bends = np.logical_and.reduceat(inner, starts)
     simple: Flags = short | convex
-    candidates = np.flatnonzero(~simple & distinct & bends & (np.diff(edges.offsets) <= MAX_EDGES))
-    counts = np.diff(edges.offsets)[candidates] ** 2
-    for first, last in ranges(counts, _CHUNK):
-        some = candidates[first:last]
-        simple[some] = _apart_from_itself(vertices, d, edges, some, rings[some], off)
+    candidates = np.flatnonzero(~simple & distinct & bends)
+    counts = np.diff(edges.offsets)[candidates]
+    few, many = candidates[counts <= MAX_EDGES], candidates[counts > MAX_EDGES]
+    for start, stop in ranges(counts[counts <= MAX_EDGES] ** 2, _CHUNK):
+        some = few[start:stop]
+        simple[some] = _apart_from_itself(first, d, edges, some, rings[some], off)
+    for k in many.tolist():
+        own = slice(edges.offsets[k], edges.offsets[k + 1])
+        wide = 0.0 if off is None else float(off[k])
+        pairs = near_edges(first[own], last[own], wide, closed=bool(rings[k]))
+        simple[k] = all(_surely_apart(first[own], d[own], i, j, wide).all() for i, j in pairs)
     return simple
 
 
 def _apart_from_itself(
-    vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags, off: Floats | None
+    first: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags, off: Floats | None
 ) -> Flags:
     """Return True if no two edges of a body intersect that are not neighbours.
 
@@ -192,9 +200,18 @@ def _apart_from_itself(
     near = (i + 1 >= j) | ((i == 0) & (j == sizes[owner] - 1) & rings[owner])
     owner, i, j = owner[~near], i[~near], j[~near]
     e, f = edges.offsets[some[owner]] + i, edges.offsets[some[owner]] + j
-    p = vertices[edges.first[f]] - vertices[edges.first[e]]
     error = 0.0 if off is None else off[some[owner]]
-    u, v = (d[e, 0], d[e, 1]), (d[f, 0], d[f, 1])
-    apart, _ = segments_meet(u, v, (p[:, 0], p[:, 1]), error, error)
+    apart = _surely_apart(first, d, e, f, error)
     simple: Flags = np.bincount(owner[~apart], minlength=len(some)) == 0
     return simple
+
+
+def _surely_apart(first: Floats, d: Floats, e: Indices, f: Indices, off: Floats | float) -> Flags:
+    """Return True for the pairs (e, f) of edges that surely are disjoint.
+
+    They start at ``first``, their vectors are ``d``. ``off`` bounds the errors of the differences
+    of two vertices, in each coordinate.
+    """
+    p = first[f] - first[e]
+    u, v = (d[e, 0], d[e, 1]), (d[f, 0], d[f, 1])
+    return segments_meet(u, v, (p[:, 0], p[:, 1]), off, off)[0]

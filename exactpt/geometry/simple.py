@@ -19,7 +19,7 @@ Edge = tuple[float, float, float, float]
 
 K: Final = 8.0 * U
 FEW: Final = 20
-"""Maximum number of edges of which all pairs are tested without boxes."""
+"""Maximum number of vertices of which all pairs of edges are compared here, without numpy."""
 
 
 def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
@@ -52,6 +52,8 @@ def is_surely_simple(
             return True
         if n == 3:
             return False
+    if n > FEW:
+        return _is_simple_of_many(xs, ys, error, closed=closed)
     return _no_edges_meet(xs, ys, error, closed=closed)
 
 
@@ -109,6 +111,18 @@ def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
     return changes + (first_along != along) == 2
 
 
+def _is_simple_of_many(
+    xs: Sequence[float], ys: Sequence[float], error: float, *, closed: bool
+) -> bool:
+    import numpy as np
+
+    from exactpt.geometry.ragged import surely_simple
+
+    rounded = np.array([error]) if error else None
+    points = np.array((xs, ys)).T
+    return bool(surely_simple(points, np.array([0, len(xs)]), np.array([closed]), rounded)[0])
+
+
 def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, closed: bool) -> bool:
     """Return True if certainly no two edges share more than a common end.
 
@@ -117,13 +131,7 @@ def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, cl
     n = len(xs)
     rows = [(xs[i], ys[i], xs[j], ys[j]) for i, j in edges(n, closed=closed)]
     m = len(rows)
-    if m <= FEW:
-        pairs = list(combinations(range(m), 2))
-    else:
-        from exactpt.geometry.edge_pairs import unsure_pairs
-
-        pairs = unsure_pairs(rows, error, closed=closed)
-    for i, j in pairs:
+    for i, j in combinations(range(m), 2):
         if j == i + 1 or (closed and j - i == m - 1):
             a, b = (rows[i], rows[j]) if j == i + 1 else (rows[j], rows[i])
             if not _cross_sign(a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1], error):

@@ -2,7 +2,7 @@
 
 import math
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
 from random import Random
 
 import numpy as np
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from strategies import as_rational, fractions, wide_fractions
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.edge_pairs import _surely_apart
+from exactpt.geometry.edge_pairs import near_edges
 from exactpt.geometry.polygon import (
     contains,
     first_self_touch,
@@ -21,6 +21,7 @@ from exactpt.geometry.polygon import (
     signed_area2,
 )
 from exactpt.geometry.predicates import between, orient2d, orientation
+from exactpt.geometry.ragged import _surely_apart
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.rounding import U
@@ -244,9 +245,68 @@ def test_edges_that_are_surely_apart_do_not_meet(error):
             for _ in range(400)
         ]
     )
-    apart = _surely_apart(rows.T[:4], rows.T[4:], error)
+    first = np.concatenate((rows[:, 0:2], rows[:, 4:6]))
+    d = np.concatenate((rows[:, 2:4], rows[:, 6:8])) - first
+    numbers = np.arange(len(rows))
+    apart = _surely_apart(first, d, numbers, len(rows) + numbers, 2.0 * error)
     for row, surely in zip(rows.tolist(), apart.tolist(), strict=True):
         moved = [QQ(v) + random.choice((-1, 0, 1)) * QQ(error) for v in row]
         a, b, c, d = zip(moved[::2], moved[1::2], strict=True)
         assert not (surely and segments_meet(a, b, c, d))
     assert 50 < apart.sum() < 350
+
+
+def spiky(n):
+    """A star, the spikes of which are a tenth of its radius long."""
+    angles = 2 * np.pi * np.arange(n) / n
+    radii = np.where(np.arange(n) % 2, 10.0, 9.0)
+    return np.stack((radii * np.cos(angles), radii * np.sin(angles)), axis=1)
+
+
+def test_few_edges_of_a_polygon_with_thin_spikes_are_compared():
+    """A regression: all edges with intersecting boxes were, 73 for each edge, and listed."""
+    points = spiky(10_000)
+    pairs = near_edges(points, np.roll(points, -1, axis=0), 0.0, closed=True)
+    assert sum(len(i) for i, _ in pairs) < 16 * len(points)
+
+
+@pytest.mark.parametrize("error", [0.0, 0.25])
+@pytest.mark.parametrize("closed", [True, False])
+def test_all_edges_of_a_polygon_that_intersect_are_near(closed, error):
+    random = Random(f"near {closed} {error}")
+    points = [(random.randint(0, 40), random.randint(0, 40)) for _ in range(90)]
+    rows = np.array(points, dtype=np.float64)
+    first, last = rows[: None if closed else -1], np.roll(rows, -1, axis=0)
+    near = near_edges(first, last[: len(first)], error, closed=closed)
+    pairs = {ij for i, j in near for ij in zip(i.tolist(), j.tolist(), strict=True)}
+    off = QQ(error)
+    moved = [
+        (x + random.choice((-1, 1)) * off, y + random.choice((-1, 1)) * off) for x, y in points
+    ]
+    n = len(first)
+    for i, j in combinations(range(n), 2):
+        if j == i + 1 or (closed and j - i == n - 1):
+            assert (i, j) not in pairs
+        elif segments_meet(*(moved[k % 90] for k in (i, i + 1, j, j + 1))):
+            assert (i, j) in pairs
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_what_is_accepted_of_many_edges_is_simple(closed):
+    """Combs of which the vertices are moved by at most a unit, often onto other edges."""
+    random = Random(f"many {closed}")
+    accepted = simple = 0
+    for _ in range(50):
+        xs = [float(i) for i in range(80)] + [40.0]
+        ys = [float(i % 2 * random.randint(3, 9)) for i in range(80)] + [30.0]
+        for i in random.sample(range(80), 3):
+            xs[i] += random.randint(-1, 1)
+            ys[i] += random.randint(-1, 1)
+        surely, is_so = (
+            is_surely_simple(xs, ys, closed=closed),
+            is_simple(exactly(xs, ys), closed=closed),
+        )
+        assert is_so or not surely
+        accepted += surely
+        simple += is_so
+    assert 0.9 * simple <= accepted <= simple < 50
