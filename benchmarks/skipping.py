@@ -24,14 +24,14 @@ from benchmarks.timing import timed
 from exactpt import AlgebraicNumber, AuditError, Body, Scene, Simulation, Translation
 from exactpt.certificates import perturbation
 from exactpt.kernel.isolated_root import IsolatedRoot
-from exactpt.motion import incidence
+from exactpt.motion.track import orientation_polynomial
 from exactpt.tiling.start import tiling_for_contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 CALLS: Final = {
     "polynomials": (
-        incidence.orientation_polynomial,
+        orientation_polynomial,
         perturbation.copy_orientation,
         perturbation.x_order,
         perturbation.cross,

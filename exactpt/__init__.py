@@ -12,7 +12,6 @@ from importlib import import_module
 from os.path import isfile
 from typing import TYPE_CHECKING, Final
 
-from exactpt import moved as moved
 from exactpt.extensions import register
 
 if TYPE_CHECKING:

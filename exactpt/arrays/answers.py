@@ -9,7 +9,7 @@ import numpy as np
 
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber

@@ -15,7 +15,7 @@ from exactpt.geometry.ragged import spread
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, U
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.pairs.rational import Candidate
 
 

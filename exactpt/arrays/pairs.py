@@ -16,8 +16,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, finite_rows, first_true, indices
 from exactpt.kernel.numbers import QQ, of_double
 from exactpt.scene.body_arrays import BodyArrays
-from exactpt.scene.scene import Scene, scene_of
-from exactpt.scene.simple import check_simple
+from exactpt.scene.scene import Scene, check_simple, scene_of
 
 BLOCK: Final = 1 << 14
 """Number of pairs at a time."""

@@ -22,8 +22,7 @@ from exactpt.kernel.doubles import Floats, Indices, doubles, finite_rows
 from exactpt.kernel.numbers import QQ, of_double, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, coincide, lies_on
-from exactpt.motion.track import translated
+from exactpt.motion.track import Touch, coincide, lies_on, translated
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene

@@ -8,12 +8,11 @@ from typing import Final
 from exactpt.arrays.answers import record
 from exactpt.arrays.contacts import Contacts
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.incidence import renumbered
 from exactpt.motion.outline import straight_pieces
+from exactpt.motion.track import renumbered
 from exactpt.pairs.rational import Candidate, first_incidence, span_of
-from exactpt.pairs.search import pair_search
+from exactpt.pairs.search import first_at_distance, pair_search
 from exactpt.pairs.start import initial_touches
-from exactpt.pairs.two_pieces import first_at_distance
 
 MOST: Final = 64
 """Maximum number of candidates that are decided here; with more, the search is faster."""

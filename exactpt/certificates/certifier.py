@@ -27,8 +27,8 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.kernel.rounding import INFINITY, UNSURE, Answer
-from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation_polynomial as base_orientation
+from exactpt.motion.track import difference
+from exactpt.motion.track import orientation_polynomial as base_orientation
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH
 
 if TYPE_CHECKING:

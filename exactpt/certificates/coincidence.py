@@ -15,8 +15,8 @@ from exactpt.certificates.reasons import reason
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
 from exactpt.kernel.rounding import U
-from exactpt.motion import incidence
-from exactpt.motion.incidence import difference
+from exactpt.motion import track
+from exactpt.motion.track import difference
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
@@ -135,7 +135,7 @@ def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
                 return False
     if coincide(certifier, v, a) or coincide(certifier, v, b):
         return True
-    is_on = incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)
+    is_on = track.lies_on(v.track, a.track, b.track, certifier.exact_now)
     why = reason(v, a, b, is_zero=is_on, exact_only=certifier.exact_only)
     certifier.counters.count_exact("contact", why)
     return is_on

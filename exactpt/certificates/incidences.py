@@ -50,7 +50,7 @@ import numpy as np
 from exactpt.certificates.coincidence import boxes_now, coincide, lies_on
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
 from exactpt.indices import VertexId
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier

@@ -10,7 +10,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
-from exactpt.motion.incidence import difference, orientation_polynomial
+from exactpt.motion.track import difference, orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.course import Piece

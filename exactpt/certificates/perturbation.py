@@ -38,7 +38,7 @@ Hence a zero without a change of sign may be ignored where only the tilings just
 just after matter (x-orders). It may not be where contacts are sought: the certificates of
 the angles of a tiling have an event at *every* zero, those of copies included, and a contact
 itself is decided on the unperturbed vertices (`exactpt.certificates.incidences`,
-`exactpt.motion.incidence`).
+`exactpt.motion.track`).
 """
 
 from __future__ import annotations
@@ -46,12 +46,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, scale, subtract
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    add,
+    coefficient_bits,
+    multiply,
+    negate,
+    pack,
+    scale,
+    subtract,
+    unpack,
+    width_for,
+)
 from exactpt.kernel.numbers import ZZ
-from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
-from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation_polynomial as base_orientation
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, difference
+from exactpt.motion.track import orientation_polynomial as base_orientation
 from exactpt.motion.vertex import Vertex
 
 

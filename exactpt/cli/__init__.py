@@ -13,12 +13,12 @@ from typing import Final
 
 import click
 
-from exactpt.cli.alarm import endings
 from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.terminal import (
     drop_standard_output,
     drop_unwritten_output,
     encodable,
+    endings,
     print_error,
 )
 from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError

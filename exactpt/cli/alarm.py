@@ -1,4 +1,4 @@
-"""Signals: a time limit or a request to end interrupts a run anywhere."""
+"""Signals: a time limit interrupts a run anywhere."""
 
 from __future__ import annotations
 
@@ -70,29 +70,3 @@ def _alarm(seconds: float) -> Iterator[None]:
     finally:
         signal.setitimer(signal.ITIMER_REAL, left, interval)
         signal.signal(signal.SIGALRM, old)
-
-
-@contextmanager
-def endings() -> Iterator[None]:
-    """Make SIGTERM and SIGHUP raise `SystemExit`, so that temporary files are removed.
-
-    Only in the main thread, and only for signals that have their default handler.
-    """
-    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    taken = [
-        number
-        for number in map(signal.Signals.__getitem__, names)
-        if threading.current_thread() is threading.main_thread()
-        and signal.getsignal(number) is signal.SIG_DFL
-    ]
-
-    def end(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
-        raise SystemExit(128 + signum)
-
-    for number in taken:
-        signal.signal(number, end)
-    try:
-        yield
-    finally:
-        for number in taken:
-            signal.signal(number, signal.SIG_DFL)

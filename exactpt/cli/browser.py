@@ -9,8 +9,7 @@ import json
 import traceback
 from collections.abc import Callable
 
-from exactpt.cli.terminal import print_error
-from exactpt.cli.words import answer_in_words
+from exactpt.cli.terminal import answer_in_words, print_error
 from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError
 from exactpt.scene.format import loads

@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
-from exactpt.cli.terminal import print_error, print_output
-from exactpt.cli.words import name_in_words
+from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
+from exactpt.cli.terminal import name_in_words, print_error, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, show
 
@@ -109,7 +107,7 @@ def convert(
 
     left_out: list[str] = []
     mended: list[str] = []
-    with time_limit(max_seconds, max_memory()):
+    with within_budget(max_seconds):
         if idle and holds_scene(source, max_bytes()):
             raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
         scene = read_shapes(

@@ -9,9 +9,8 @@ from typing import Final
 import click
 from click.core import ParameterSource
 
-from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import load, max_memory
-from exactpt.cli.words import bounds_in_words, intervals_in_words
+from exactpt.cli.options import load, within_budget
+from exactpt.cli.terminal import bounds_in_words, intervals_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
@@ -28,7 +27,7 @@ def collide_all(
     from exactpt.pairs.intervals import contacts
 
     _check_alone("every")
-    with time_limit(max_seconds, max_memory()):
+    with within_budget(max_seconds):
         scene = load(path, until)
         found = contacts(scene)
         lines = intervals_in_words(scene, found)
@@ -44,7 +43,7 @@ def collide_enclosed(
     from exactpt.collision.enclosed import first_contact_enclosed
 
     _check_alone("enclosed")
-    with time_limit(max_seconds, max_memory()):
+    with within_budget(max_seconds):
         scene = load(path, until)
         found = first_contact_enclosed(scene)
         lines = bounds_in_words(scene, found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
@@ -135,6 +135,16 @@ def max_memory() -> int | None:
     """Return the maximum memory of the current command in bytes, if one is given."""
     megabytes: int | None = click.get_current_context().meta.get("exactpt.max_memory")
     return None if megabytes is None else megabytes * 10**6
+
+
+def within_budget(seconds: float | None) -> AbstractContextManager[None]:
+    """Return a context with a time limit, and the limit of memory of the current command."""
+    memory = max_memory()
+    if seconds is None and memory is None:
+        return nullcontext()
+    from exactpt.cli.alarm import time_limit
+
+    return time_limit(seconds, memory)
 
 
 def max_bytes() -> int | None:

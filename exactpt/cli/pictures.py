@@ -7,7 +7,6 @@ from typing import Literal
 
 import click
 
-from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import (
     MOMENT,
     QUIET,
@@ -16,14 +15,13 @@ from exactpt.cli.options import (
     TILING,
     budget,
     load,
-    max_memory,
     naming_at,
     output,
     two_names,
+    within_budget,
 )
 from exactpt.cli.progress import estimating, progress
-from exactpt.cli.terminal import print_output
-from exactpt.cli.words import answer_in_words
+from exactpt.cli.terminal import answer_in_words, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
@@ -105,7 +103,7 @@ def draw(
     gap = None if clearance is None else two_names(clearance, "--clearance")
     if gap is not None and at is not None and output.suffix.lower() != ".html":
         raise InputError("--at: a plot of the clearance is of all times")
-    with time_limit(max_seconds, max_memory()), naming_at():
+    with within_budget(max_seconds), naming_at():
         given = load(scene)
         with (
             progress(given, "drawing", quiet=quiet) as reached,

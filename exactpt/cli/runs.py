@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import (
     QUIET,
     RATIONAL,
@@ -18,12 +17,17 @@ from exactpt.cli.options import (
     TILING,
     budget,
     load,
-    max_memory,
     names_in,
     two_names,
+    within_budget,
 )
-from exactpt.cli.terminal import drop_standard_output, print_output
-from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
+from exactpt.cli.terminal import (
+    answer_in_words,
+    drop_standard_output,
+    event_in_words,
+    print_output,
+    stats_in_words,
+)
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
@@ -170,7 +174,7 @@ def _first_contact(
     answer: dict[str, object] = {"contact": None}
     uncertified: BudgetExceeded | None = None
     try:
-        with time_limit(question.max_seconds, max_memory()):
+        with within_budget(question.max_seconds):
             given = load(path, until, since)
             answer |= {"until": str(given._end), "tiling": question.tiling}
             if question.proof is not None or question.certificate is not None:
@@ -294,7 +298,7 @@ def _run(
 
     simulation: Simulation | None = None
     try:
-        with time_limit(max_seconds, max_memory()):
+        with within_budget(max_seconds):
             given = load(path, until)
             simulation = Simulation(
                 given,

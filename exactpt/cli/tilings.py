@@ -11,7 +11,6 @@ from typing import Any
 
 import click
 
-from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import (
     QUIET,
     RATIONAL,
@@ -19,9 +18,9 @@ from exactpt.cli.options import (
     TILING,
     budget,
     load,
-    max_memory,
     naming_at,
     output,
+    within_budget,
 )
 from exactpt.cli.progress import progress
 from exactpt.cli.terminal import print_error, print_output
@@ -59,7 +58,7 @@ def tile(
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
-    with time_limit(max_seconds, max_memory()), naming_at():
+    with within_budget(max_seconds), naming_at():
         given = load(scene)
         snapshot = tile_at(
             given,
@@ -217,10 +216,10 @@ def check(
     from exactpt.check import check_scene
 
     if scene.is_dir() or _begins_as_certificate(scene):
-        with time_limit(max_seconds, max_memory()):
+        with within_budget(max_seconds):
             return _check_by_both(scene, quiet=quiet, max_seconds=max_seconds)
     try:
-        with time_limit(max_seconds, max_memory()):
+        with within_budget(max_seconds):
             given = load(scene)
             with progress(given, "checking", quiet=quiet) as reached:
                 report = check_scene(

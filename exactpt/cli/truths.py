@@ -10,8 +10,7 @@ from typing import BinaryIO
 
 import click
 
-from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
+from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
 from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import print_error, print_output
 from exactpt.errors import InputError
@@ -42,7 +41,7 @@ def oracle(file: BinaryIO, max_seconds: float | None) -> int:
     from exactpt.testing.oracle import Refusals, answers, batches
 
     refusals, first = Refusals(), 1
-    with time_limit(max_seconds, max_memory()):
+    with within_budget(max_seconds):
         for lines in batches(file, max_bytes()):
             output = "\n".join(answers(lines, first, refusals))
             first += len(lines)
@@ -198,7 +197,7 @@ def judge(
     from exactpt.files import read_bytes
     from exactpt.testing.grading import grade, questions_in
 
-    with time_limit(max_seconds, max_memory()):
+    with within_budget(max_seconds):
         known = None
         if asked is not None:
             lines = read_bytes(asked, max_bytes()).splitlines()

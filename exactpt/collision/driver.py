@@ -23,7 +23,7 @@ from exactpt.tiling.start import TilingPlan, plan_tiling
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
-    from exactpt.motion.incidence import Touch
+    from exactpt.motion.track import Touch
     from exactpt.tiling.tiling import Tiling
 
 NOTHING: Final = 0

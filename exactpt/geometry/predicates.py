@@ -2,7 +2,7 @@
 
 `orient2d` uses + - * only, so it works over any ring: over the rationals it is a static
 predicate, over polynomials in t the function of a certificate. (Certificates themselves
-take it from homogeneous coordinates, `exactpt.motion.incidence.orientation_polynomial`.)
+take it from homogeneous coordinates, `exactpt.motion.track.orientation_polynomial`.)
 """
 
 from __future__ import annotations

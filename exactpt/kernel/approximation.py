@@ -1,4 +1,4 @@
-"""Doubles and dyadic rationals near an algebraic number.
+"""Doubles, decimals and dyadic rationals near an algebraic number, or a quotient at one.
 
 Results depend on the number alone (and on its polynomial where stated), never on how far
 its interval has been refined, so printed output is the same in every run.
@@ -7,13 +7,17 @@ its interval has been refined, so printed output is the same in every run.
 from __future__ import annotations
 
 import math
+import sys
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from typing import TYPE_CHECKING, Final
 
+from exactpt.errors import InputError
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.integer_polynomial import sign_at
+from exactpt.kernel.integer_polynomial import IntPoly, range_on, scale, sign_at, subtract
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
 
 if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.isolated_root import IsolatedRoot
 
 LARGEST_BITS: Final = 500
@@ -172,3 +176,81 @@ def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:
     while x.compare_rational((m + 1) * grid) >= 0:
         m += 1
     return m
+
+
+# Quotients of polynomials at algebraic times, correctly rounded
+
+
+def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
+    """About the binary exponent of p / w at a time; the least integer if p vanishes there."""
+    if time.sign_of(p) == 0:
+        return -sys.maxsize
+    while True:
+        check_budget()
+        low, high = _range(p, w, time._low, time._high)
+        least = low if low > 0 else -high
+        if least > 0:
+            return least.numerator.bit_length() - least.denominator.bit_length()
+        time.refine()
+
+
+def nearest_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
+    """Return the double nearest to p / w at a time, at which w is positive."""
+    if time.sign_of(p) == 0:
+        return 0.0
+    while True:
+        check_budget()
+        low, high = _range(p, w, time._low, time._high)
+        a, b = nearest_float(low), nearest_float(high)
+        if a == b:
+            return a
+        if b == math.nextafter(a, math.inf) and math.isfinite(a + b):
+            middle = (QQ(*a.as_integer_ratio()) + QQ(*b.as_integer_ratio())) / 2
+            f = subtract(scale(p, ZZ(middle.denominator)), scale(w, ZZ(middle.numerator)))
+            s = time.sign_of(f)
+            return nearest_float(middle) if s == 0 else b if s > 0 else a
+        time.refine()
+
+
+def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int) -> Decimal:
+    """Return the decimal nearest to p / w at a time, at which w is positive; of two, the even one.
+
+    Args:
+        p: the numerator.
+        w: the denominator.
+        time: any real algebraic number; it is refined.
+        digits: the number of significant digits, at least 1.
+
+    Raises:
+        InputError: if ``digits`` is less than 1.
+    """
+    if digits < 1:
+        raise InputError(f"digits: at least 1: {digits}")
+    context = Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX)
+    if time.sign_of(p) == 0:
+        return Decimal(0)
+    while True:
+        check_budget()
+        low, high = _range(p, w, time._low, time._high)
+        a, b = rounded_decimal(low, context), rounded_decimal(high, context)
+        if a == b:
+            return a
+        if b == context.next_plus(a):
+            middle = (QQ(*a.as_integer_ratio()) + QQ(*b.as_integer_ratio())) / 2
+            f = subtract(scale(p, ZZ(middle.denominator)), scale(w, ZZ(middle.numerator)))
+            s = time.sign_of(f)
+            return rounded_decimal(middle, context) if s == 0 else b if s > 0 else a
+        time.refine()
+
+
+def rounded_decimal(q: QQ, context: Context) -> Decimal:
+    """Return the decimal nearest to a rational."""
+    return context.divide(Decimal(int(q.numerator)), Decimal(int(q.denominator)))
+
+
+def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
+    a, b = range_on(p, low, high)
+    c, d = range_on(w, low, high)
+    if c <= 0:
+        c = QQ(1, 1 << 4096)  # w is positive: any positive bound will do until refinement
+    return (a / d if a > 0 else a / c), (b / c if b > 0 else b / d)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from decimal import Context, Decimal
+from decimal import Context
 from fractions import Fraction
 from typing import Final, Self
 
 from exactpt.errors import InputError
-from exactpt.kernel.approximation import nearest_double
+from exactpt.kernel.approximation import nearest_double, rounded_decimal
 from exactpt.kernel.integer_polynomial import trimmed
 from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.kernel.numbers import QQ, ZZ, Rational, floor, fraction, rational
@@ -129,11 +129,6 @@ class RealNumber(IsolatedRoot):
 
 def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]}...{text[-8:]}"
-
-
-def rounded_decimal(q: QQ, context: Context) -> Decimal:
-    """Return the decimal nearest to a rational."""
-    return context.divide(Decimal(int(q.numerator)), Decimal(int(q.denominator)))
 
 
 def _operand(value: Rational) -> QQ:

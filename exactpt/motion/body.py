@@ -11,6 +11,7 @@ from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.simple import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.approximation import decimal_quotient
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
@@ -22,7 +23,6 @@ from exactpt.kernel.numbers import (
     shorten,
     show,
 )
-from exactpt.kernel.quotients import decimal_quotient
 from exactpt.motion.course import Course, Piece
 from exactpt.motion.motions import (
     REST,

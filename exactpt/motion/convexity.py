@@ -9,7 +9,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import orientation_polynomial
+from exactpt.motion.track import orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body

@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import final
 
 from exactpt.errors import InputError
+from exactpt.geometry.simple import orientation_of_doubles
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, of_double, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
@@ -84,6 +85,19 @@ class Piece:
         (xs, ys, _), translation = moved
         dx, dy = translation._at(t)
         return [(of_double(x) + dx, of_double(y) + dy) for x, y in zip(xs, ys, strict=True)]
+
+    def turns_left(self, ring: range, t: QQ) -> bool:
+        """Return True if a ring of a body with interior is counter-clockwise at a rational time."""
+        moved = self.translation
+        if moved is not None:
+            xs, ys, is_exact = moved[0]
+            some = slice(ring.start, ring.stop)
+            turn = orientation_of_doubles(xs[some], ys[some], is_exact=is_exact)
+            if turn:
+                return turn > 0
+        from exactpt.geometry.polygon import is_counter_clockwise
+
+        return is_counter_clockwise([self.position(v, t) for v in ring])
 
     def straight_x(self, vertex: int) -> tuple[QQ, QQ] | None:
         """Return the coefficients of x = x0 + x1 t of a vertex, without its trajectory.

@@ -16,8 +16,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import difference
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, difference
 
 Direction: TypeAlias = tuple[IntPoly, IntPoly]
 """A direction (dx, dy), polynomials in t."""

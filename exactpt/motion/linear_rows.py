@@ -20,7 +20,6 @@ from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization, normalization_for
-from exactpt.motion.ring_order import turns_left
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
@@ -105,7 +104,8 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     largest = float(np.max(np.abs(scaled), where=lost != 0.0, initial=0.0))
     turns = _turns(given.vertices, given.offsets, owner)
     for k in np.flatnonzero(turns == 0).tolist():
-        turns[k] = 1 if turns_left(bodies[k], range(int(counts[k])), start) else -1
+        piece = bodies[k]._piece_after(start)
+        turns[k] = 1 if piece.turns_left(range(int(counts[k])), start) else -1
     indices = np.where(turns[owner] > 0, number, counts[owner] - 1 - number)
     rows = first[owner] + indices
     coefficients = np.concatenate((scaled[rows], rates[owner]), axis=1)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple, final
 
+from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import FAR, TINY, U
@@ -69,6 +70,14 @@ def outline_at(body: Body, t: QQ) -> Outline | None:
         if shape is not None:
             return shape
     return _nearest(body._at(t))
+
+
+def is_simple_by_doubles(body: Body, t: QQ) -> bool:
+    """Return True if a body of one ring or chain certainly is simple at a time, with an area."""
+    shape = None if body.has_rings else outline_at(body, t)
+    return shape is not None and is_surely_simple(
+        shape.xs, shape.ys, closed=body.closed, error=shape.error
+    )
 
 
 def _nearest(points: Iterable[tuple[QQ, QQ]]) -> Outline | None:

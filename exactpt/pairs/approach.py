@@ -18,12 +18,11 @@ from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.piece_pairs import two_bodies
-from exactpt.pairs.pieces import MotionPiece, linear_pieces
+from exactpt.pairs.pieces import ContactDistance, MotionPiece, linear_pieces
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.search import first_among_pieces
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
-from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, a_scene, scene_of
 

@@ -20,10 +20,9 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
-from exactpt.motion.incidence import Touch, vertex_touch
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track, vertex_touch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.start import Apart, Limit

@@ -8,7 +8,7 @@ from typing import ClassVar, NamedTuple, final
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.pairs.incidences import Pair, details
 from exactpt.scene.scene import Scene
 

@@ -8,8 +8,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, difference, dot, orientation_polynomial, vector
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track, difference, dot, orientation_polynomial, vector
 
 
 def exterior_side(

@@ -27,8 +27,7 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, dot, orientation_polynomial, vector, vertex_touch
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track, dot, orientation_polynomial, vector, vertex_touch
 
 
 class Feature(NamedTuple):

@@ -33,9 +33,9 @@ from exactpt.kernel.budget import check_budget, deadline_in, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.motion.incidence import Touch
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
+from exactpt.motion.track import Touch
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.rational import Earliest, LinearContact

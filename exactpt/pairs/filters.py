@@ -27,8 +27,8 @@ import math
 from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
-from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Outline, Path, Straight
+from exactpt.motion.track import Touch
 from exactpt.pairs.rational import Candidate, Span
 
 U2: Final = 2.0 * U

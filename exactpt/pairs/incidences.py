@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from typing import final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.approximation import exponent, nearest_quotient
 from exactpt.kernel.integer_polynomial import multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ, finite
-from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.incidence import Touch, orientation_polynomial, vector
 from exactpt.motion.outline import is_rigid
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track, orientation_polynomial, vector
 from exactpt.scene.scene import Scene
 
 
@@ -177,11 +176,10 @@ def _outward(scene: Scene, number: int, ring: range) -> int:
 
     That is 1 for the right one, -1 for the left one.
     """
-    from exactpt.motion.ring_order import turns_left
-
     body = scene.bodies[number]
     is_outline = ring in [outline for outline, *_ in body.parts]
-    return 1 if turns_left(body, ring, scene._start) == is_outline else -1
+    turns_left = body._piece_after(scene._start).turns_left(ring, scene._start)
+    return 1 if turns_left == is_outline else -1
 
 
 def _normal(

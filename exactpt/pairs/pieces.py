@@ -12,10 +12,9 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float
 from exactpt.motion.outline import Straight, far_origin, straight_pieces
 from exactpt.pairs.filters import window
-from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -40,6 +39,23 @@ class MotionPiece(NamedTuple):
     straight: Straight
     start: QQ
     end: QQ
+
+
+class ContactDistance(NamedTuple):
+    """The distance of two cores at which they count as touching; it is positive.
+
+    Attributes:
+        squared: its square, exactly.
+        nearest: a positive double, off by at most 2 U of it and 2^-1074.
+    """
+
+    squared: QQ
+    nearest: float
+
+    @classmethod
+    def of(cls, squared: QQ, root: QQ) -> ContactDistance:
+        """Return the distance with a square, given its root, off by at most 2^-60 of it."""
+        return cls(squared, nearest_float(root) or math.ulp(0.0))
 
 
 Distance: TypeAlias = "Callable[[MotionPiece, MotionPiece], ContactDistance | None]"

@@ -15,8 +15,7 @@ from typing import NamedTuple
 
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.incidence import dot, vector
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, dot, vector
 
 
 class TouchPoint(NamedTuple):

@@ -9,8 +9,8 @@ from typing import Generic, NamedTuple, TypeVar
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats
-from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
+from exactpt.motion.track import Touch
 
 
 class Span(NamedTuple):

@@ -15,20 +15,30 @@ from typing import TYPE_CHECKING, final
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget, deadline_in, searching
-from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.motion.incidence import Touch, renumbered
+from exactpt.motion.body import Body
+from exactpt.motion.outline import Straight
+from exactpt.motion.track import Touch, renumbered
 from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.filters import candidates_of
 from exactpt.pairs.pieces import (
     FEW,
+    ContactDistance,
     Distance,
     MotionPiece,
     ScenePieces,
     contact_distance,
     linear_pieces,
 )
-from exactpt.pairs.rational import Earliest, LinearContact, Span, span_of
-from exactpt.pairs.two_pieces import first_linear_contact
+from exactpt.pairs.rational import (
+    Candidate,
+    Earliest,
+    LinearContact,
+    Span,
+    earliest,
+    first_incidence,
+    span_of,
+)
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -73,15 +83,15 @@ class LinearSearch:
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the search so far, see docs/format.md: pairs of pieces are decided."""
-        counters = self._search.counters
+        search = self._search
         return {
             "bodies": len(self._scene.bodies),
             "vertices": self._scene.vertex_count,
             "events": 0,
-            "certificates": counters.exact + counters.filtered,
+            "certificates": search.exact + search.filtered,
             "skipped": 0,
-            "exact": counters.exact,
-            "filtered": counters.filtered,
+            "exact": search.exact,
+            "filtered": search.filtered,
         }
 
     def contact_free_until(self) -> Fraction | None:
@@ -178,7 +188,7 @@ class _Search:
     Attributes:
         best: the contact.
         low: no two pieces touch before it.
-        counters: of the pairs compared, those decided by the filter, and those decided exactly.
+        filtered, exact: numbers of the pairs compared that the filter decides, and of the others.
     """
 
     def __init__(self, distance: Distance, deadline: float | None = None) -> None:
@@ -187,7 +197,7 @@ class _Search:
         self._spans: dict[tuple[QQ, QQ], Span] = {}
         self.best: Earliest[Touch] = Earliest()
         self._enter = -math.inf
-        self.counters = Counters()
+        self.filtered = self.exact = 0
 
     @property
     def low(self) -> float:
@@ -218,8 +228,66 @@ class _Search:
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
         distance = self._distance(a, b)
-        met = first_linear_contact(
-            a.straight, b.straight, span, self.best.high, distance, self.counters
-        )
+        nearest = 0.0 if distance is None else distance.nearest
+        candidates = candidates_of(a.straight, b.straight, span, self.best.high, nearest)
+        if not candidates:
+            self.filtered += 1
+            return
+        self.exact += 1
+        met = first_of_candidates(a.straight, b.straight, span, candidates, distance)
         if met is not None:
             self.best.add(met.time, renumbered(met.touches, a.body, b.body))
+
+
+def first_of_candidates(
+    a: Straight,
+    b: Straight,
+    span: Span,
+    candidates: Sequence[Candidate],
+    distance: ContactDistance | None = None,
+) -> LinearContact | None:
+    """Return the first contact of two bodies in (start, end], exactly, from its candidates.
+
+    Args:
+        a: a body.
+        b: another body; the two are disjoint at the start, or farther apart than the distance.
+        span: the start and the end.
+        candidates: as `candidates_of` returns them.
+        distance: the contact distance of the cores; None if it is 0.
+    """
+    if distance is None:
+        return first_incidence(a, b, span, candidates)
+    return first_at_distance((a.body, b.body), *span[:2], candidates, distance.squared)
+
+
+def first_at_distance(
+    bodies: tuple[Body, Body],
+    start: QQ,
+    end: QQ,
+    candidates: Iterable[Candidate],
+    squared: QQ,
+) -> LinearContact | None:
+    """Return the first time in (start, end] at which candidates are at a distance, exactly.
+
+    Args:
+        bodies: two bodies, farther apart than the distance at the start.
+        start: the start; from there on each body is in one piece of its motion.
+        end: the end.
+        candidates: in the order of their earliest times. Of vertices and edges alone, if the
+            distance is 0.
+        squared: the square of the distance.
+    """
+    from exactpt.pairs.features import FeaturePair
+    from exactpt.pairs.piece_pairs import segments_of
+
+    pieces = [body._piece_after(start) for body in bodies]
+    begin = AlgebraicNumber(start)
+
+    def first(touch: Touch, until: QQ) -> tuple[AlgebraicNumber, Touch] | None:
+        i, vertex, j, edge, other = touch
+        ends = (other,) if edge < 0 else segments_of(bodies[j])[edge]
+        pair = FeaturePair(touch, pieces[i].track(vertex), tuple(map(pieces[j].track, ends)))
+        time = pair.first_time(squared, begin, until)
+        return None if time is None else (time, pair.touch_at(time, ends))
+
+    return earliest(candidates, first, end)

@@ -16,8 +16,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, check_budget, within
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.outline import is_rigid
+from exactpt.motion.track import Touch, renumbered
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch

@@ -18,8 +18,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
-from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.inside import nested_pairs
+from exactpt.motion.track import Touch, renumbered
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs

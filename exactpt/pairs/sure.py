@@ -44,8 +44,8 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import covers
+from exactpt.motion.track import Touch
 from exactpt.pairs.distance import squared_distance, squared_from_interior
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.piece_pairs import piece_pairs, segments_of

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
-from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Path, Straight
+from exactpt.motion.track import Touch
 from exactpt.pairs.rational import Candidate
 
 K: Final = 16.0 * U

@@ -29,8 +29,7 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, lies_on, orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, difference, lies_on, orientation_polynomial
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.piece_pairs import PiecePair, cores_intersect, piece_pairs, segments_of
 from exactpt.pairs.rational import Earliest

@@ -22,7 +22,7 @@ from exactpt.scene.written import to_json
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.incidence import Touch
+    from exactpt.motion.track import Touch
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling

@@ -14,7 +14,7 @@ from exactpt.proof.times import time_text
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.incidence import Touch
+    from exactpt.motion.track import Touch
     from exactpt.proof.contraction import Cycle
     from exactpt.proof.nodes import Nodes
     from exactpt.proof.watch import Step

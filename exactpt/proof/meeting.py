@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from exactpt.check_apart import Poly, Rejected, Whole, are_near, require_passage, surrounds
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.proof.frame import TINY
 from exactpt.proof.paths import Paths
 

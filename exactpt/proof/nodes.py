@@ -18,7 +18,7 @@ from exactpt.kernel.integer_polynomial import (
 )
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import difference, orientation_polynomial
+from exactpt.motion.track import difference, orientation_polynomial
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body

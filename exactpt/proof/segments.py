@@ -25,7 +25,7 @@ from exactpt.proof.nodes import Nodes, rigid_until
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.incidence import Touch
+    from exactpt.motion.track import Touch
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, final
 from exactpt.indices import NO_VERTEX, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.incidence import orientation_polynomial
+from exactpt.motion.track import orientation_polynomial
 from exactpt.proof.contraction import Contraction, Cycle, Face
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Mesh
 

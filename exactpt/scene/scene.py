@@ -14,7 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
-from exactpt.scene.simple import check_simple
+from exactpt.motion.outline import is_simple_by_doubles
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -445,6 +445,18 @@ def a_scene(value: object) -> Scene:
 def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:
     """Return the scene of a pickle, which was validated before."""
     return scene_of(bodies, rational(start), rational(end))
+
+
+def check_simple(body: Body, start: QQ) -> None:
+    """Check that a body is a simple polygon or chain at the start: by doubles first.
+
+    Raises:
+        InputError: if it is not; see `exactpt.scene.simple`.
+    """
+    if not is_simple_by_doubles(body, start):
+        from exactpt.scene.simple import check_exactly
+
+        check_exactly(body, start)
 
 
 def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:

@@ -1,21 +1,17 @@
-"""The check that a body is a simple polygon or chain at the start of a scene."""
+"""The exact check that a body is a simple polygon or chain at the start of a scene."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from exactpt.errors import InputError
-from exactpt.geometry.simple import is_surely_simple
+from exactpt.geometry.polygon import contains, first_touch, near_groups, signed_area2
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.outline import outline_at
-
-if TYPE_CHECKING:
-    from exactpt.geometry.predicates import Point
 
 
-def check_simple(body: Body, start: QQ) -> None:
+def check_exactly(body: Body, start: QQ) -> None:
     """Check that a body is a simple polygon or chain at the start of a scene.
 
     If it has several rings, each is simple and disjoint from all others, each hole is inside of
@@ -24,15 +20,6 @@ def check_simple(body: Body, start: QQ) -> None:
     Raises:
         InputError: if it is not.
     """
-    shape = outline_at(body, start)
-    if (
-        shape is not None
-        and not body.has_rings
-        and is_surely_simple(shape.xs, shape.ys, closed=body.closed, error=shape.error)
-    ):
-        return
-    from exactpt.geometry.polygon import first_touch, signed_area2
-
     points = body._at(start)
     touch = first_touch(points, body.edges)
     if touch is not None:
@@ -68,8 +55,6 @@ def _not_simple(
 
 def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     """Check that disjoint rings are outlines and holes of disjoint parts."""
-    from exactpt.geometry.polygon import contains, near_groups
-
     rings = [ring for rings in body.parts for ring in rings]
     parts = [k for k, rings in enumerate(body.parts) for _ in rings]
     outlines = [k for k, part in enumerate(parts) if k == 0 or parts[k - 1] != part]

@@ -9,7 +9,7 @@ from mypy_extensions import mypyc_attr
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.indices import Ends, VertexId
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 
 Edges: TypeAlias = tuple[Ends, ...]
 """Edges, as pairs of vertex ids."""

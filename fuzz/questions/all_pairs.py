@@ -2,7 +2,7 @@
 
 It follows the definition of a contact and uses neither a tiling nor a float filter. It shares
 the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
-`exactpt.motion.incidence` with the searches that it checks. Where a body has a radius,
+`exactpt.motion.track` with the searches that it checks. Where a body has a radius,
 `fuzz.questions.all_pairs_radii` has the definition; such a body does not touch itself.
 """
 
@@ -16,8 +16,7 @@ from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track, coincide, difference, lies_on, orientation_polynomial
 from exactpt.pairs.contact import contact_of
 from exactpt.pairs.incidences import tracks_just_before
 from fuzz.questions.all_pairs_radii import (

@@ -16,8 +16,7 @@ from exactpt import AlgebraicNumber, Body
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import Touch
-from exactpt.motion.track import Track
+from exactpt.motion.track import Touch, Track
 
 Point: TypeAlias = "tuple[QQ, QQ]"
 Segment: TypeAlias = "tuple[Point, Point]"

@@ -14,7 +14,7 @@ from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.clearance import Clearance, ClearancePiece
 from exactpt.pairs.distance import distance

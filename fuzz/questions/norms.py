@@ -13,8 +13,7 @@ from typing import Literal
 from exactpt import AlgebraicNumber, Body
 from exactpt.kernel.integer_polynomial import IntPoly, add, scale
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.incidence import orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, orientation_polynomial
 from fuzz.questions.reference import (
     Tracks,
     critical_times,

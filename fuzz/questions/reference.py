@@ -15,8 +15,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, sub
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, difference, orientation_polynomial
 
 __all__ = [
     "contact_intervals", "critical_times", "edges_of", "first_within", "intervals_within",

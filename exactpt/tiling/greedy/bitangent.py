@@ -13,7 +13,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
 from exactpt.indices import Ends, VertexId
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.incidence import difference
+from exactpt.motion.track import difference
 from exactpt.tiling.greedy.slope import Slope, slope_terms
 
 

@@ -12,7 +12,7 @@ from typing import final
 
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, scale, subtract
 from exactpt.kernel.numbers import ZZ
-from exactpt.motion.incidence import difference
+from exactpt.motion.track import difference
 from exactpt.motion.vertex import Vertex
 
 

@@ -16,7 +16,7 @@ from itertools import groupby
 from exactpt.certificates.certifier import X_ORDER, Certifier
 from exactpt.certificates.coincidence import coordinate_order
 from exactpt.indices import VertexId
-from exactpt.motion.incidence import Touch, difference
+from exactpt.motion.track import Touch, difference
 from exactpt.tiling.incremental.structure import IncrementalStructure
 
 

@@ -32,7 +32,7 @@ from exactpt import (
     first_within,
     prove,
 )
-from exactpt.moved import MOVED
+from exactpt.extensions import MOVED
 
 DATA = Path(__file__).parents[2] / "data"
 PICKLES = json.loads((DATA / "pickles.json").read_text())

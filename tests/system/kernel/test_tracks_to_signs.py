@@ -16,9 +16,8 @@ from exactpt.kernel.integer_polynomial import primitive
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.enclosures import Enclosures
-from exactpt.motion.incidence import difference, orientation_polynomial
 from exactpt.motion.normalization import normalization_for
-from exactpt.motion.track import track
+from exactpt.motion.track import difference, orientation_polynomial, track
 from fuzz.filter_attacks import asked, judge
 
 STYLES = ["free", "collinear", "near", "lanes"]

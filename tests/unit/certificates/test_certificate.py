@@ -18,7 +18,7 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.incidences import FEW, touches
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.motion.vertices import Vertices
 
 CODES = [*range(6), 6, 7, *range(8, 14)]

@@ -17,6 +17,7 @@ from oracles import exact, is_nearest_double
 from strategies import as_rational, doubles, fractions, wide_fractions
 
 from exactpt import AlgebraicNumber, InputError
+from exactpt.kernel.approximation import decimal_quotient
 from exactpt.kernel.numbers import (
     QQ,
     ZZ,
@@ -31,7 +32,6 @@ from exactpt.kernel.numbers import (
     shorten,
     sign,
 )
-from exactpt.kernel.quotients import decimal_quotient
 
 LARGEST = Fraction(math.nextafter(math.inf, 0.0))
 SMALLEST = Fraction(5e-324)

@@ -6,12 +6,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactpt.certificates.perturbation import copy_orientation, cross
-from exactpt.kernel.integer_polynomial import add, multiply, negate, subtract, trimmed
+from exactpt.kernel.integer_polynomial import (
+    add,
+    coefficient_bits,
+    multiply,
+    negate,
+    pack,
+    subtract,
+    trimmed,
+    unpack,
+    width_for,
+)
 from exactpt.kernel.numbers import ZZ
-from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, orientation_polynomial
 from exactpt.motion.vertex import MovingBody, Vertex
 
 numbers = st.one_of(

@@ -9,8 +9,7 @@ from strategies import algebraics, as_int_poly, as_rational, fractions, trim
 
 from exactpt import Affine, AlgebraicNumber, Body, Rigid, Translation
 from exactpt.kernel.integer_polynomial import sign_at
-from exactpt.motion.incidence import coincide, lies_on, orientation_polynomial
-from exactpt.motion.track import Track
+from exactpt.motion.track import Track, coincide, lies_on, orientation_polynomial
 
 coefficients = st.lists(fractions, max_size=2)
 motions = st.one_of(

@@ -10,8 +10,8 @@ from exactpt import AlgebraicNumber, Body, Rigid, Translation
 from exactpt.kernel.integer_polynomial import add, multiply, sign_at, subtract
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.incidence import difference
 from exactpt.motion.infinitesimal import displacements, ring_of_copies
+from exactpt.motion.track import difference
 
 START, END = QQ(0), QQ(3)
 paths = st.lists(fractions, max_size=3)

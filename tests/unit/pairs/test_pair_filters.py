@@ -13,8 +13,9 @@ from exactpt.motion.outline import straight_pieces
 from exactpt.pairs import search
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.filters import candidates_of, window
+from exactpt.pairs.pieces import ContactDistance
 from exactpt.pairs.rational import span_of
-from exactpt.pairs.two_pieces import ContactDistance, first_linear_contact
+from exactpt.pairs.search import first_of_candidates
 from fuzz.questions.all_pairs_radii import core_distance, first_at_distance
 
 SHAPES = [
@@ -62,7 +63,9 @@ def test_filter_with_radius_loses_no_first_contact_of_the_definition(seed):
         expected = first_at_distance(a, b, p, q, (QQ(0), end))
         pieces = [straight_pieces(x)[0][0] for x in (a, b)]
         distance = ContactDistance.of(reach**2, reach)
-        meeting = first_linear_contact(*pieces, span_of(QQ(0), end), math.inf, distance)
+        span = span_of(QQ(0), end)
+        candidates = candidates_of(*pieces, span, math.inf, distance.nearest)
+        meeting = first_of_candidates(*pieces, span, candidates, distance)
         assert (meeting is None) == (expected is None)
         if meeting is not None:
             found += 1

@@ -39,8 +39,7 @@ def test_the_checker_imports_nothing_but_the_standard_library():
     found = set(done.stdout.split())
     assert {m for m in found if m.startswith("exactpt")} == {
         "exactpt",
-        "exactpt.extensions",
-        "exactpt.moved",  # of the package itself, as every import of one of its modules
+        "exactpt.extensions",  # of the package itself, as every import of one of its modules
         "exactpt.proof_check",
     }
     assert {m.split(".")[0] for m in found} <= {*sys.stdlib_module_names, "exactpt"}

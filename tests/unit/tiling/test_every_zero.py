@@ -11,7 +11,7 @@ from exactpt import AlgebraicNumber, Body, Scene, Translation
 from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation_polynomial
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.incidence import difference
+from exactpt.motion.track import difference
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate

@@ -11,8 +11,8 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.perturbation import cross
 from exactpt.certificates.queue import EventTime
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.motion.incidence import difference
-from exactpt.motion.incidence import orientation_polynomial as orientation_of_tracks
+from exactpt.motion.track import difference
+from exactpt.motion.track import orientation_polynomial as orientation_of_tracks
 from exactpt.motion.vertices import Vertices
 
 small = st.integers(-3, 3)
