@@ -1,4 +1,4 @@
-"""What is imported on first use, by its name: functions of higher packages, and moved modules.
+"""Imports on first use, by name: functions of higher packages, and modules that have moved.
 
 Values of lower packages call functions of higher ones at extension points. Examples are the
 picture of a scene in a notebook, and a body from a geometry of another library. The lower package
