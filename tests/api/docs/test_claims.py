@@ -145,7 +145,7 @@ def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
 
 def test_in_a_convoy_no_two_bodies_are_compared(monkeypatch):
     compared = []
-    monkeypatch.setattr(straight_search, "first_linear_contact", lambda *_: compared.append(1))
+    monkeypatch.setattr(straight_search, "candidates_of", lambda *_: compared.append(1))
     assert first_contact(convoy(1000)) is None
     assert not compared
 

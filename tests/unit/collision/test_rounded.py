@@ -25,7 +25,7 @@ from exactpt import (
 from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import two_pieces
+from exactpt.pairs import search
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.proof import prove
@@ -307,9 +307,9 @@ def test_a_crowd_far_away(shift):
 
 def test_a_crowd_needs_few_exact_decisions(monkeypatch):
     decided = []
-    exactly = two_pieces.first_at_distance
+    exactly = search.first_at_distance
     monkeypatch.setattr(
-        two_pieces, "first_at_distance", lambda *given: decided.append(1) or exactly(*given)
+        search, "first_at_distance", lambda *given: decided.append(1) or exactly(*given)
     )
     rng = Random(3)
     bodies = [

@@ -260,7 +260,7 @@ def test_an_irrational_time_has_its_polynomial_whenever_it_is_asked():
 def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
     """20 bodies of 100 pieces that keep away from each other: hardly two rows are compared."""
     compared = []
-    monkeypatch.setattr(straight_search, "first_linear_contact", lambda *_: compared.append(1))
+    monkeypatch.setattr(straight_search, "candidates_of", lambda *_: compared.append(1))
     rng = Random(5)
     bodies = []
     for i in range(20):
@@ -279,13 +279,13 @@ def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
 
 def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
     compared = []
-    first_linear_contact = straight_search.first_linear_contact
+    candidates_of = straight_search.candidates_of
 
-    def recorded(a, b, span, before=math.inf, *distance):
+    def recorded(a, b, *rest):
         compared.append((a, b))
-        return first_linear_contact(a, b, span, before, *distance)
+        return candidates_of(a, b, *rest)
 
-    monkeypatch.setattr(straight_search, "first_linear_contact", recorded)
+    monkeypatch.setattr(straight_search, "candidates_of", recorded)
     bodies = []
     for i in range(40):
         bodies += [
