@@ -10,12 +10,13 @@ import numpy as np
 
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.arrays.screening import screened
-from exactpt.batch.linear import initial_contact, is_linear, linear_contact
+from exactpt.batch.linear import contact_between, initial_contact, is_linear, linear_contact
 from exactpt.batch.options import Options
 from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
+from exactpt.motion.incidence import Touch
 from exactpt.renamed import renamed
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
@@ -103,6 +104,13 @@ def _read(contents: Sequence[bytes], longest: int) -> dict[int, TwoBodies]:
 
 
 def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int, Answer]:
+    turning = {place: scene for place, scene in read.items() if scene.turns}
+    translating = {place: scene for place, scene in read.items() if not scene.turns}
+    return _of_one_kind(translating, contents) | _of_one_kind(turning, contents)
+
+
+def _of_one_kind(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int, Answer]:
+    """As `_screened`, of scenes that all turn, or all do not."""
     if not read:
         return {}
     scenes, places = [*read.values()], [*read]
@@ -113,7 +121,8 @@ def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int
         closed=[body.closed for scene in scenes for body in scene.bodies],
     )
     spans = np.array([scene.span for scene in scenes])
-    contacts = screened(bodies, spans, lambda i: _scene(contents[places[i]]))
+    turns = np.array([scene.turns for scene in scenes]).reshape(-1, 6) if scenes[0].turns else None
+    contacts = screened(bodies, spans, lambda k: _scene(contents[places[k]]), turns)
     found = {}
     for k, (place, scene) in enumerate(read.items()):
         known = _contact(scene, contacts, k)
@@ -130,7 +139,9 @@ def _contact(scene: TwoBodies, contacts: Contacts, k: int) -> Answer | None:
         return {"contact": None}
     if contacts.kind[k] == INITIAL:
         return {"contact": initial_contact(scene)}
-    if not is_linear(scene):
-        return None
-    place = int(contacts.body[k]), int(contacts.vertex[k]), int(contacts.edge[k])
-    return {"contact": linear_contact(scene, *place)}
+    side, vertex, edge = int(contacts.body[k]), int(contacts.vertex[k]), int(contacts.edge[k])
+    if is_linear(scene):
+        return {"contact": linear_contact(scene, side, vertex, edge)}
+    touch = Touch(side, vertex, 1 - side, edge, -1)
+    times = float(contacts.low[k]), float(contacts.high[k])
+    return {"contact": contact_between(contacts.scene(k), touch, *times)}

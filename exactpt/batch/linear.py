@@ -1,4 +1,4 @@
-"""Contacts of which filters have found the features: time, point and normal of linear motion."""
+"""Contacts of which filters have found the features: their exact time, point and normal."""
 
 from __future__ import annotations
 
@@ -8,8 +8,14 @@ from typing import Final
 
 from exactpt.batch.two_bodies import Moving, Raw, TwoBodies, exact
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, finite, nearest_float
+from exactpt.kernel.numbers import QQ, finite, nearest_float, of_double
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.incidence import Touch
+from exactpt.pairs.contact import contact_of
+from exactpt.pairs.features import FeaturePair
+from exactpt.scene.scene import Scene
 
+Answer = dict[str, object]
 Vector = tuple[QQ, QQ]
 
 SMALLEST: Final = 2.0**-200
@@ -19,17 +25,17 @@ LARGEST: Final = 2.0**200
 
 def is_linear(scene: TwoBodies) -> bool:
     """Return True if both bodies move straight, at constant velocities."""
-    return not any(scene.coefficients[2::3])
+    return not (scene.turns or any(scene.coefficients[2::3]))
 
 
-def initial_contact(scene: TwoBodies) -> dict[str, object]:
+def initial_contact(scene: TwoBodies) -> Answer:
     """Return the contact of two bodies that overlap at the start without an incidence, as JSON."""
     names = [body.name for body in scene.bodies]
     time = AlgebraicNumber(exact(scene.time[0]))
     return {"time": time.to_json(), "kind": "initial", "pairs": [], "overlaps": [names]}
 
 
-def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> dict[str, object] | None:
+def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> Answer | None:
     """Return the contact of one vertex with the inside of one edge, as JSON; None after the span.
 
     With p - a = w + d t and b - a = u for the vertex p and the edge ab, u x w + (u x d) t
@@ -66,6 +72,25 @@ def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> dict[
             }
         ],
     }
+
+
+def contact_between(scene: Scene, touch: Touch, low: float, high: float) -> Answer | None:
+    """Return the contact of a vertex with the inside of an edge, as JSON; None after the span.
+
+    Args:
+        scene: two bodies, whose first contact this is unless the span ends before.
+        touch: the vertex and the edge. In (low, high] the vertex crosses the edge's line once.
+        low: a time before the contact, not before the start.
+        high: a time not before it.
+    """
+    pieces = [body._piece_after(scene._start) for body in scene.bodies]
+    one, other = pieces[touch.body], pieces[touch.other]
+    ends = touch.edge, scene.bodies[touch.other].end_of_edge(touch.edge)
+    pair = FeaturePair(touch, one.track(touch.vertex), tuple(map(other.track, ends)))
+    until = min(of_double(high), scene._end)
+    f = pair.at_distance(QQ(0))
+    root = next(roots_after(f, AlgebraicNumber(of_double(low)), until), None)
+    return None if root is None else contact_of(scene, root.time, [touch]).to_json()
 
 
 def _path(body: Moving, vertex: int) -> tuple[Vector, Vector]:

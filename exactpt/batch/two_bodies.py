@@ -1,4 +1,6 @@
-"""Scenes of two bodies that translate, read without building them: their doubles, and their texts.
+"""Scenes of two bodies, read without building them: their doubles, and their texts.
+
+The bodies translate, or turn with a linear half turn.
 
 Whatever is not plainly such a scene is left to `exactpt.scene.format`, errors included.
 """
@@ -24,6 +26,9 @@ LONGEST: Final = 10_000
 TOP: Final = {"exactpt", "time", "bodies"}
 BODY: Final = {"name", "vertices", "motion", "closed"}
 AXES: Final = {"x", "y"}
+RIGID: Final = {"half_turn", "pivot", "orientation", *AXES}
+UPRIGHT: Final[tuple[Raw, ...]] = (0, 0, 0, 0, 1, 0)
+"""The numbers of `Moving.turn` of a body that does not turn."""
 SMALLEST: Final = 1e-270
 LARGEST: Final = 1e270
 """Sizes between which the nearest double has a relative error of at most U."""
@@ -32,23 +37,25 @@ _TEXT: Final = re.compile(r"(-?[0-9]+)(?:/([0-9]+)|\.[0-9]+)?", re.ASCII)
 
 
 class _Other(Exception):  # noqa: N818 - not an error of the input
-    """The text is not plainly a scene of two bodies that translate."""
+    """The text is not plainly a scene of two such bodies."""
 
 
 class Moving(NamedTuple):
-    """A body that translates, its numbers as they are written.
+    """A body, its numbers as they are written.
 
     Attributes:
         name: its name.
         vertices: the rows (x, y).
         motion: the coefficients in x and in y, the constant first; at most three each.
         closed: False for an open chain.
+        turn: two coefficients of the half turn, the pivot, and the orientation.
     """
 
     name: str
     vertices: Sequence[Sequence[Raw]]
     motion: tuple[Sequence[Raw], Sequence[Raw]]
     closed: bool
+    turn: Sequence[Raw] = UPRIGHT
 
 
 class TwoBodies(NamedTuple):
@@ -60,6 +67,7 @@ class TwoBodies(NamedTuple):
         span: the start, which is a double, and a double after the end.
         coefficients: for each body six nearest doubles: those of x, then those of y.
         points: the vertices as nearest doubles x, y, x, ..., those of one body after the other's.
+        turns: for each body six nearest doubles, those of its turn; none if both only translate.
     """
 
     bodies: tuple[Moving, Moving]
@@ -67,10 +75,11 @@ class TwoBodies(NamedTuple):
     span: tuple[float, float]
     coefficients: list[float]
     points: list[float]
+    turns: list[float]
 
 
 def read_two_bodies(content: bytes) -> TwoBodies | None:
-    """Return the scene of a line of JSON if it has two bodies that translate, else None."""
+    """Return the scene of a line of JSON if it plainly has two such bodies, else None."""
     if len(content) > LONGEST:
         return None
     try:
@@ -95,12 +104,14 @@ def _scene(data: object) -> TwoBodies:
     start, end = time
     a, b = map(_body, bodies)
     motions = [[*axis, 0, 0, 0][:3] for body in (a, b) for axis in body.motion]
-    numbers = [start, end, *chain(*motions), *chain(*a.vertices, *b.vertices)]
+    turns = [] if a.turn is b.turn is UPRIGHT else [*a.turn, *b.turn]
+    numbers = [start, end, *turns, *chain(*motions), *chain(*a.vertices, *b.vertices)]
     first, last, *rest = _doubles(numbers)
+    known, rest = rest[: len(turns)], rest[len(turns) :]
     if a.name == b.name or first >= last or exact(start) != QQ(*first.as_integer_ratio()):
         raise _Other
     span = first, math.nextafter(last, math.inf)
-    return TwoBodies((a, b), (start, end), span, rest[:12], rest[12:])
+    return TwoBodies((a, b), (start, end), span, rest[:12], rest[12:], known)
 
 
 def _body(data: object) -> Moving:
@@ -113,13 +124,30 @@ def _body(data: object) -> Moving:
         raise _Other
     if len(rows) > 3 and rows[0] == rows[-1]:
         raise _Other
-    motion = data.get("motion", {})
-    if type(motion) is not dict or not motion.keys() <= AXES:
+    motion, turn = data.get("motion", {}), UPRIGHT
+    if type(motion) is dict and motion.keys() == {"rigid"}:
+        motion = motion["rigid"]
+        turn = _turn(motion)
+    elif type(motion) is not dict or not motion.keys() <= AXES:
         raise _Other
     x, y = motion.get("x", []), motion.get("y", [])
     if not type(x) is type(y) is list or len(x) > 3 or len(y) > 3:
         raise _Other
-    return Moving(name, rows, (x, y), closed)
+    return Moving(name, rows, (x, y), closed, turn)
+
+
+def _turn(rigid: object) -> tuple[Raw, ...]:
+    if type(rigid) is not dict or not rigid.keys() <= RIGID:
+        raise _Other
+    half_turn, pivot = rigid["half_turn"], rigid.get("pivot", [0, 0])
+    orientation = rigid.get("orientation", [1, 0])
+    if not type(half_turn) is type(pivot) is type(orientation) is list or len(half_turn) > 2:
+        raise _Other
+    (px, py), (cosine, sine) = pivot, orientation
+    if "orientation" in rigid and exact(cosine) ** 2 + exact(sine) ** 2 != 1:
+        raise _Other
+    first, second, *_ = *half_turn, 0, 0
+    return first, second, px, py, cosine, sine
 
 
 def _doubles(numbers: list[Raw]) -> list[float]:

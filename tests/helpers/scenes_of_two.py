@@ -3,6 +3,7 @@
 import json
 import math
 from decimal import Decimal
+from fractions import Fraction
 from random import Random
 
 from exactpt.scene.json_values import Number
@@ -133,3 +134,98 @@ def _tiny_and_far(rng):
         for name in "ab"
     ]
     return _dump({"exactpt": 1, "time": [0, 3], "bodies": bodies})
+
+
+def turning(count, seed=0):
+    """Two triangles of random doubles, one or both of which turn."""
+    rng = Random(seed)
+    lines = []
+    for _ in range(count):
+        bodies = [
+            {
+                "name": name,
+                "vertices": [
+                    [middle + math.cos(2.1 * k) * rng.uniform(1, 1.2), math.sin(2.1 * k)]
+                    for k in range(3)
+                ],
+                "motion": {"rigid": {"half_turn": [0, rng.uniform(-1, 1)], "pivot": [middle, 0.5]}},
+            }
+            for name, middle in (("a", 0.0), ("b", 5.0))
+        ]
+        moved = {"x": [0, -rng.random()], "y": [0, rng.uniform(-0.1, 0.1), 0.01]}
+        bodies[1]["motion"]["rigid"] |= moved
+        if rng.random() < 0.5:
+            bodies[1]["motion"] = moved
+        lines.append(_dump({"exactpt": 1, "time": [0, 9], "bodies": bodies}))
+    return lines
+
+
+def _turn(rng, pivot, number):
+    more = {"x": [0, number()], "y": [0, number(), number()]} if rng.random() < 0.7 else {}
+    return {"rigid": {"half_turn": [0, number()], "pivot": pivot, **more}}
+
+
+ORIENTATIONS = ((1, 0), (0, 1), (-1, 0), ("3/5", "4/5"), ("-4/5", "3/5"))
+
+
+def turning_on_a_grid(count, seed=0):
+    """Bodies of small integers that turn: touching, crossing, within each other, not simple."""
+    rng = Random(seed)
+
+    def number():
+        return rng.randint(-2, 2)
+
+    def body(name, x):
+        vertices = [[x + number(), number()] for _ in range(rng.randint(1, 4))]
+        if rng.random() < 0.4:
+            vertices = [[x, 0], [x + rng.randint(1, 2), 0], [x, rng.randint(1, 2)]]
+        data = {"name": name, "vertices": vertices, "closed": rng.random() < 0.7}
+        if rng.random() < 0.3:
+            return data | {"motion": {"x": [0, number()], "y": [number(), number(), number()]}}
+        motion = _turn(rng, [x + number(), number()], number)
+        if rng.random() < 0.3:
+            motion["rigid"]["orientation"] = list(rng.choice(ORIENTATIONS))
+        if rng.random() < 0.3:
+            motion["rigid"]["half_turn"] = [number(), f"{number()}/{rng.randint(1, 3)}"]
+        return data | {"motion": motion}
+
+    lines = []
+    for _ in range(count):
+        start = rng.choice([0, 0, 0, 1, -1, -2])
+        bodies = [body("a", 0), body("b", rng.randint(0, 5))]
+        if rng.random() < 0.2 and "rigid" in bodies[0]["motion"]:
+            bodies[1]["motion"] = bodies[0]["motion"]
+        span = [start, start + rng.randint(1, 4)]
+        lines.append(_dump({"exactpt": 1, "time": span, "bodies": bodies}))
+    return lines
+
+
+def turning_past(count, seed=0):
+    """A tip that turns to a place at a given time, at, on or along an edge that ends or lies there.
+
+    The edge is moved by 0, or by 10^-4 to 10^-22 of the radius.
+    """
+    rng = Random(seed)
+    lines = []
+    for _ in range(count):
+        t, rate = Fraction(rng.randint(0, 8), rng.choice([2, 4, 5])), Fraction(rng.randint(1, 3), 2)
+        h = rate * t
+        cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
+        radius, far = rng.randint(1, 4), rng.choice([0, 0, 10**6])
+        x, y = far + radius * cosine, radius * sine
+        by = rng.choice([0, 1, -1]) * Fraction(1, 10 ** rng.choice([4, 8, 11, 13, 15, 17, 22]))
+        out = 1 + by
+        nx, ny = rng.choice([(cosine, sine), (-cosine, -sine), (sine, -cosine), (1, 0), (-1, 2)])
+        ends = rng.choice([(-1, 1), (0, 1), (Fraction(-1, 3), 1)])
+        x, y = far + (x - far) * out, y * out
+        edge = [(x - s * ny, y + s * nx) for s in ends]
+        edge += rng.choice([[], [(x + 2 * nx, y + 2 * ny)]])
+        moved = rng.choice([{}, {"x": [0, Fraction(1, 3)]}])
+        a = {"name": "a", "vertices": [(far + radius, 0), (far, Fraction(1, 9)), (far, 0)]}
+        shared = {axis: list(path) for axis, path in moved.items()}
+        a["motion"] = {"rigid": {"half_turn": [0, rate], "pivot": [far, 0], **shared}}
+        bodies = [a, {"name": "b", "vertices": edge, "motion": moved}]
+        rng.shuffle(bodies)
+        scene = {"exactpt": 1, "time": [0, rng.choice([t or 1, t + 1])], "bodies": bodies}
+        lines.append(json.dumps(scene, default=str))
+    return lines

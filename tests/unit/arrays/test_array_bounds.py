@@ -1,12 +1,15 @@
 """The bounds of the filters, attacked by numbers that cancel, overflow and underflow."""
 
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 
+from exactpt.arrays import turning
+from exactpt.arrays.candidates import all_candidates
 from exactpt.arrays.motions import reaches, relative_motions
+from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.relative import Relative, orientations, sides
 from exactpt.arrays.sharpening import ExactRelative, sharpened
 from exactpt.arrays.spans import read_spans
@@ -15,6 +18,7 @@ from exactpt.geometry.ragged import segments_meet, surely_simple
 from exactpt.kernel.double_double import add2, exact_difference, exact_sum, multiply2
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import U
+from exactpt.scene.body_arrays import BodyArrays
 
 
 def exact(x):
@@ -248,3 +252,97 @@ def test_a_star_that_turns_twice_is_not_convex():
 
     assert surely_simple(star, np.array([0, 5]), np.array([True])).tolist() == [False]
     assert surely_simple(star[::2], np.array([0, 3]), np.array([True])).tolist() == [True]
+
+
+def times(x, y):
+    """The product of two complex numbers."""
+    return x[0] * y[0] - x[1] * y[1], x[0] * y[1] + x[1] * y[0]
+
+
+def minus(x, y):
+    return x[0] - y[0], x[1] - y[1]
+
+
+def conjugate(x):
+    return x[0], -x[1]
+
+
+def at_time(turn, path, t):
+    """a, and the place of the pivot."""
+    h0, h1, px, py = turn[:4]
+    x, y = (sum(c * t**k for k, c in enumerate(axis)) for axis in path)
+    return (Fraction(1), h0 + h1 * t), (px + x, py + y)
+
+
+def beside(vertex, edge, mine, other, t):
+    """f, g and h of a vertex at a time, by the definition of the motions."""
+    (turn, path), (turned, course) = mine, other
+    (a, c), (b, d) = at_time(turn, path, t), at_time(turned, course, t)
+
+    def placed(p, turn):
+        return times(minus(p, turn[2:4]), turn[4:])
+
+    weight = times(a, conjugate(a))[0], times(b, conjugate(b))[0]
+    q = times(times(a, a), placed(vertex, turn))
+    out = (q[0] / weight[0] + c[0] - d[0], q[1] / weight[0] + c[1] - d[1])
+    seen = times(times(conjugate(b), conjugate(b)), out)
+    p, end = (placed(e, turned) for e in edge)
+    u = minus(end, p)
+    along, across = times(conjugate(u), minus((seen[0] / weight[1], seen[1] / weight[1]), p))
+    w = weight[0] * weight[1]
+    return w * across, w * along, w * ((u[0] ** 2 + u[1] ** 2) - along)
+
+
+def bernstein(f, s):
+    """The value at s of the polynomial with these Bernstein coefficients."""
+    while len(f) > 1:
+        f = [(1 - s) * a + s * b for a, b in pairwise(f)]
+    return f[0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_polynomials_of_bodies_that_turn_are_within_their_bounds(seed):
+    """The exact numbers are off the doubles by half a distance of doubles; time is halved often."""
+    rng = np.random.default_rng(seed)
+    n = 6
+    points, turns = hostile(rng, (4 * n, 2)), hostile(rng, (2 * n, 6))
+    coefficients = hostile(rng, (2 * n, 2, 3))
+    for rows in (points, turns, coefficients):
+        rows[np.abs(np.log2(np.abs(rows), where=rows != 0.0, out=np.zeros_like(rows))) > 60] = 0.0
+    turns[:, 4:] = [[(1, 0), (0, -1), (-1, 0)][k] for k in rng.integers(0, 3, 2 * n)]
+    bodies = BodyArrays(points, 2 * np.arange(2 * n + 1), coefficients=coefficients)
+    starts = rng.choice([0.0, -1.0, 0.3], n)
+    spans = read_spans(np.stack((starts, starts + rng.choice([1.0, 9.0], n)), axis=1), n)
+    outlines, (places, radii) = outlines_of(bodies), turning._places_of(bodies, turns)
+    poses = turning._poses_of(bodies, turns, spans)
+    candidates, _ = all_candidates(outlines, *np.arange(2 * n).reshape(-1, 2).T)
+    found, error = turning._polynomials(outlines, poses, candidates, places, radii)
+
+    off = [1 + Fraction(int(k), 2**54) for k in rng.integers(-1, 2, 7)]
+    moved = [[exact(c) * off[k % 7] for k, c in enumerate(row)] for row in turns[:, :4].tolist()]
+    moved = [[*row, *map(exact, of)] for row, of in zip(moved, turns[:, 4:].tolist(), strict=True)]
+    paths = [[[exact(c) * off[4] for c in axis] for axis in body] for body in coefficients.tolist()]
+    at = [tuple(exact(c) * off[k % 7] for c in row) for k, row in enumerate(points.tolist())]
+    parts = [(found, Fraction(0), Fraction(1))]
+    for k in range(8):
+        halves, low, width = parts[-1]
+        halves = turning._halved(halves)
+        second = k % 3 == 0
+        kept = halves[:, :, len(error) :] if second else halves[:, :, : len(error)]
+        parts.append((kept, low + second * width / 2, width / 2))
+    large = 0
+    for r, (pair, second, v, e, _) in enumerate(
+        zip(*map(np.ndarray.tolist, candidates), strict=True)
+    ):
+        mine, other = (2 * pair + (second ^ k) for k in (0, 1))
+        edge = [at[outlines.edges.first[e]], at[outlines.edges.last[e]]]
+        sides_of = [(moved[k], paths[k]) for k in (mine, other)]
+        end = exact(poses.start[pair] + poses.length[pair])
+        for f, low, width in (parts[0], parts[-1]):
+            for s in (Fraction(0), Fraction(1, 3), Fraction(1)):
+                t = exact(poses.start[pair]) + (low + s * width) * (end - exact(poses.start[pair]))
+                truth = beside(at[v], edge, *sides_of, t)
+                near = [bernstein(list(map(exact, row)), s) for row in f[:, :, r].T]
+                assert all(abs(a - b) <= exact(error[r]) for a, b in zip(near, truth, strict=True))
+                large += any(abs(a) > error[r] for a in truth)
+    assert large > 3 * len(error)
