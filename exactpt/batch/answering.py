@@ -16,7 +16,7 @@ from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.renamed import renamed
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads

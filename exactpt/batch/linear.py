@@ -10,7 +10,7 @@ from exactpt.batch.two_bodies import Moving, Raw, TwoBodies, exact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, finite, nearest_float, of_double
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.incidence import Touch
+from exactpt.motion.track import Touch
 from exactpt.pairs.contact import contact_of
 from exactpt.pairs.features import FeaturePair
 from exactpt.scene.scene import Scene
