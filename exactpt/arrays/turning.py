@@ -79,7 +79,7 @@ class Poses(NamedTuple):
 def record_turning(
     bodies: BodyArrays, o: Outlines, turns: Floats, spans: Spans, contacts: Contacts
 ) -> None:
-    """Record the first contacts of the pairs (0, 1), (2, 3), ...; what is open is ``exact``.
+    """Record the first contacts of the pairs (0, 1), (2, 3), ...; open ones are ``exact``.
 
     Args:
         bodies: in doubles nearest to the exact numbers.
@@ -170,7 +170,7 @@ def _at_start(
 ) -> tuple[Flags, Flags]:
     """Return which pairs surely overlap at the start, without an incidence, and which are open.
 
-    A vertex is off by at most 64 U A (C + R) then.
+    A vertex is off by at most 64 U A (C + R) at that time.
     """
     sizes = native(np.diff(bodies.offsets))
     t = np.repeat(spans.start, 2)
@@ -219,7 +219,7 @@ def _first_roots(
     """Return the rows that are the first in their pair where a vertex is on its edge.
 
     That is sure when one row and one span of it are left, with a root of f inside the edge, of
-    which f is monotone there. Rows are left out from where another one surely has such a root.
+    which f is monotone there. Rows are left out after the first such root in their pair.
 
     Args:
         p: f, g and h of each row.
