@@ -22,9 +22,10 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import deadline_in
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.proof.emit import ProofRun
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import scene_bytes
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling

@@ -32,6 +32,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import accumulate, chain, pairwise, zip_longest
 from math import comb, gcd, isqrt, lcm
 from operator import mul
@@ -56,12 +57,13 @@ def require(condition: object, why: str) -> None:
     if not condition: raise Rejected(why)
 def words(n: int) -> int: return (n.numerator.bit_length() + n.denominator.bit_length() >> 6) + 1
 def most_words(f: Iterable[Any]) -> int: return max(map(words, f), default=1)
+def longest(integers: Iterable[int]) -> int: return words(max(map(abs, integers)))
 class Poly(tuple[Any, ...]):
     __slots__ = ()
     def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
-        f = list(coefficients)
-        while f and (not f[-1]): f.pop()
-        return super().__new__(cls, f)
+        f = tuple.__new__(cls, coefficients); n = len(f)
+        while n and (not f[n - 1]): n -= 1
+        return f if n == len(f) else tuple.__new__(cls, f[:n])
     def __add__(self, g: 'Poly') -> 'Poly':
         both = self and g; return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)]) if both else self or g
     def __sub__(self, g: 'Poly') -> 'Poly': return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
@@ -73,7 +75,8 @@ class Poly(tuple[Any, ...]):
             for j, b in enumerate(g): product[i + j] += a * b
         return Poly(product)
 Track = tuple[Poly, Poly, Poly]; Whole = tuple[int, int, int]; Entry = TypeVar('Entry', int, Poly)
-Triple = tuple[Entry, Entry, Entry]; ONE = Poly([Fraction(1)]); Poses = tuple[Point, list[Fraction], list[list[Poly]]]
+Triple = tuple[Entry, Entry, Entry]; ONE, ZERO = (Poly([Fraction(1)]), Poly())
+Poses = tuple[Point, list[Fraction], list[list[Poly]]]
 def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
     return (b[0] * a[2] - a[0] * b[2], b[1] * a[2] - a[1] * b[2])
 def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
@@ -83,9 +86,9 @@ def dot_of(a: Triple[Entry], v: Triple[Entry], b: Triple[Entry]) -> Entry:
     (px, py), (qx, qy) = (vector_of(v, a), vector_of(v, b)); return px * qx + py * qy
 def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     n, d, k = (t.numerator, t.denominator, max(map(len, polynomials)))
+    if k < 2: return [*map(sum, polynomials)]
     if (n | d) >> 64:
-        longest = max(map(most_words, polynomials))
-        WORK.spend(len(polynomials) * k ** 2 * words(d) * (k * words(n) + longest))
+        size = words(d) * (k * words(n) + longest(chain(*polynomials))); WORK.spend(len(polynomials) * k ** 2 * size)
     powers = [n ** i * d ** (k - 1 - i) for i in range(k)]; found = [sum(map(mul, f, powers)) for f in polynomials]
     WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
@@ -97,7 +100,7 @@ def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
     return all((vector_of(p, q) == (0, 0) for p, q in zip(points, others, strict=True)))
 def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
     spans, near = ([], [((x << 256) // w, (y << 256) // w) for x, y, w in points])
-    product = most_words(chain(*points)) ** 2
+    product = longest(chain(*points)) ** 2
     for u, v in edges:
         WORK.spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0): return False
@@ -117,7 +120,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
             elif meet(points[a], points[b], points[c], points[d]): return False
     return True
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
-    WORK.spend(len(ring) * (300 + 15 * most_words((*p, *ring[0])) ** 2))
+    WORK.spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
     above, odd = ([q[1] * p[2] > p[1] * q[2] for q in ring], False)
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
@@ -128,8 +131,10 @@ class Bare(str): __slots__ = ()
 def need(condition: object, what: str, data: Json='') -> None:
     if not condition: raise NoProofError(f'the scene: {what} {data!r:.60}')
 def number(data: Json) -> Fraction:
-    is_short = isinstance(data, str) and len(data) <= 3 * MAX_DIGITS
-    match = NUMBER.fullmatch(data) if is_short else None
+    need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, 'not a number:', data); return rational(data)
+@lru_cache(1000)
+def rational(data: str) -> Fraction:
+    match = NUMBER.fullmatch(data)
     if match is None: raise NoProofError(f'the scene: not a number: {data!r:.60}')
     whole, under, minus, units, decimals, exponent = match.groups()
     if whole is not None:
@@ -147,7 +152,7 @@ def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> 
 def entries(data: Json, length: int | None=None) -> list[Json]:
     need(isinstance(data, list) and length in (None, len(data)), 'not a list as needed:', data); return list(data)
 def check_json(data: Json, levels: int) -> None:
-    is_text = isinstance(data, str) and (not re.search('[\ud800-\udfff]', data))
+    is_text = isinstance(data, str) and (data.isascii() or not re.search('[\ud800-\udfff]', data))
     need(is_text or not isinstance(data, (str, float)), 'a number or text that is none:', data)
     if isinstance(data, (dict, list)):
         need(levels, 'nested too deeply:', None)
@@ -161,11 +166,11 @@ class Motion:
         required = {'rigid': ['half_turn'], 'affine': ['matrix'], '': []}[kind]
         given = keys(keys(data, [kind])[kind] if kind else data, required, ['x', 'y', *optional])
         x, y = (polynomial(given.get(k, [])) for k in 'xy')
-        m, high = ([ONE, Poly(), Poly(), ONE], max(of_shape, degree(x, y)))
+        m, high = ([ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y)))
         if kind == 'affine':
             m = [polynomial(p) for row in entries(given['matrix'], 2) for p in entries(row, 2)]
             high = max(of_shape + degree(*m), degree(x, y))
-        h = polynomial(given.get('half_turn', []))
+        h = polynomial(given['half_turn']) if kind == 'rigid' else ZERO
         need(high + 2 * degree(h) <= MAX_DEGREE, f'a degree above {MAX_DEGREE}'); form = (*m, x, y, ONE)
         if kind == 'rigid':
             c, s = point(given.get('orientation', ['1', '0']))
@@ -173,15 +178,18 @@ class Motion:
             p, q = (Poly([k]) for k in point(given.get('pivot', ['0', '0'])))
             w, cosine, sine = (ONE + h * h, ONE - h * h, h + h)
             a, b = (cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s]))
-            e, f = (w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q); form = (a, Poly() - b, b, a, e, f, w)
-        self.form = cleared(*form)[:7]
-        self.cost = sum(map(len, self.form)) * (300 + 2 * most_words(chain(*self.form)) ** 2)
+            e, f = (w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q); form = (a, ZERO - b, b, a, e, f, w)
+        e, f, w = cleared(x, y); self.form = cleared(*form)[:7] if kind else (w, ZERO, ZERO, w, e, f, w)
+        self.columns = [*zip_longest(*self.form, fillvalue=0)]
+        self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
     def track(self, x: Poly, y: Poly, z: Poly) -> Track:
-        WORK.spend(self.cost * (len(x) + len(y))); a, b, c, d, e, f, w = self.form
-        found = (x * a + z * e, y * d + z * f, z * w)
-        if b or c: found = (found[0] + y * b, found[1] + x * c, found[2])
-        m = gcd(*chain(*found)); x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found
-        return (x, y, w)
+        rows = [*zip_longest(x, y, z, fillvalue=0)]
+        WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
+        found = [[0] * (len(self.columns) + len(rows) - 1) for _ in 'xyw']
+        for i, (p, q, r) in enumerate(rows):
+            for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
+                found[0][j] += a * p + b * q + e * r; found[1][j] += c * p + d * q + f * r; found[2][j] += w * r
+        m = gcd(*chain(*found)); x, y, w = (Poly([k // m for k in g]) for g in found); return (x, y, w)
 def cleared(*given: Poly) -> tuple[Poly, ...]:
     m = lcm(*[q.denominator for q in chain(*given)]); WORK.spend(words(m) ** 2 * sum(map(len, given)))
     return (*(Poly([q.numerator * (m // q.denominator) for q in f]) for f in given), Poly([m]))
@@ -194,7 +202,7 @@ class Body:
         self.name, closed = (body['name'], body.get('closed', True))
         need(type(self.name) is str and self.name, 'a name:', self.name)
         need(isinstance(closed, bool), 'closed:', closed); self.radius = number(body.get('radius', '0'))
-        need(self.radius >= 0, 'a radius:', body.get('radius'))
+        need(self.radius.numerator >= 0, 'a radius:', body.get('radius'))
         need(isinstance(body.get('properties', {}), dict), 'properties:', self.name)
         check_json([self.name, body.get('properties')], 30)
         parts = [keys(p, ['vertices'], ['holes']) for p in entries(body.get('parts', []))]
@@ -208,21 +216,22 @@ class Body:
         self.first, self.size = (first, len(self.frames[0][1] if self.frames else self.shape))
         need(self.size, 'no vertices:', self.name); self.read_motion(body.get('motion', {}))
         self.vertices, self.closed = (range(first, first + self.size), closed and self.size > 2)
-        self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)}); self.parts = list[list[range]]()
+        self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)}); self.parts: list[list[range]] = []
         for part in rings if several else [[self.vertices]]:
             bounds = accumulate(map(len, part), initial=first)
             self.parts.append([range(i, j) for i, j in pairwise(bounds)]); first = self.parts[-1][-1].stop
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         ends = [(ring, [(ring[-1], ring[0])][:self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks: dict[tuple[int, int], Track] = {}; self.at_start = self.places(start)
+        self.tracks, self.at_start = (dict[tuple[int, int], Track](), self.places(start))
         self.check_simple(self.at_start)
     def read_motion(self, data: Json) -> None:
-        of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
-        rows, given = ([{'motion': data}], dict[str, Json]())
-        if isinstance(data, dict) and 'pieces' in data:
-            given = keys(data, ['pieces'], ['spin', 'path']); need(len(given) < 3, 'both a spin and a path:', data)
-            rows = [keys(p, ['motion'], ['until']) for p in entries(given['pieces'])]
+        of_shape = 1 if self.frames else degree(*chain(*self.shape))
+        several = isinstance(data, dict) and 'pieces' in data
+        given = keys(data, ['pieces'], ['spin', 'path']) if several else {}
+        need(len(given) < 3, 'both a spin and a path:', data)
+        pieces = entries(given['pieces']) if several else [{'motion': data}]
+        rows = [keys(p, ['motion'], ['until']) for p in pieces]
         whole = rows and 'until' not in rows[-1] and all(('until' in p for p in rows[:-1]))
         need(whole, '"until" belongs to all pieces but the last:', data)
         self.ends = [number(p['until']) for p in rows[:-1]]
@@ -243,7 +252,7 @@ class Body:
         return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
         motion = motion or self.motions[bisect_right(self.ends, t)]
-        a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * most_words(form)))
+        a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * longest(form)))
         shape = (values(self.coordinates(i, t), t) for i in range(self.size))
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
     def check_simple(self, places: Sequence[Whole]) -> None:
@@ -269,7 +278,8 @@ def vertex(data: Json) -> tuple[Poly, ...]:
     if isinstance(data, dict):
         given = keys(data, optional=['x', 'y']); return cleared(*(polynomial(given.get(k, [])) for k in 'xy'))
     x, y = point(data); m = lcm(x.denominator, y.denominator)
-    return (*(Poly([c.numerator * (m // c.denominator)]) for c in (x, y)), Poly([m]))
+    p, q = (x.numerator * (m // x.denominator), y.numerator * (m // y.denominator))
+    return (Poly([p]), Poly([q]), Poly([m]))
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     frames = [keys(f, ['t', 'vertices']) for f in entries(data)]
     path = [(number(f['t']), [*map(point, entries(f['vertices']))]) for f in frames]
@@ -317,8 +327,8 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
         if len(line) > MAX_LINE_BYTES: raise NoProofError(f'line {i} is too long')
         row = re.findall('[^ \\t\\r]+', line.decode())
         if row and (not line.startswith(b'#')):
-            form = FORMS.get(row[0], 'none')
-            if not re.fullmatch(form, ' '.join(row)) or not is_bounded(row):
+            form = FORMS.get(row[0], FORMS['none'])
+            if not form.fullmatch(' '.join(row)) or not is_bounded(row):
                 raise NoProofError(f'line {i} is not in the format')
             rows.append((i, row))
     if not re.fullmatch(ORDER, ' '.join((row[0] for _, row in rows))):
@@ -339,34 +349,37 @@ LINES = (
     f"distance {R};t( {R})?;c {Z} {Z} {R}( {R})?;s {V} {V};meet {R} {V} {V};inside {R} {V} {V};"
     f"cross {R} {R} {V} {V}"
 )
-FORMS = {form.split("(")[0].split()[0]: form for form in LINES.split(";")}
+FORMS = {form.split("(")[0].split()[0]: re.compile(form) for form in LINES.split(";")}
 ORDER = (
     "exactpt-apart scene span( between)*+( ignoring)*+( distance)?( [tcs](?= ))*+ "
     "(none|meet|inside|cross)"
 )
-Hull = list[tuple[int, int, int, int]]
 Plane = tuple[int, int, int, int]
+Planes = tuple[Plane, Plane]
+Hull = list[tuple[int, int, int, int]]
 
 
 def is_bounded(row: list[str]) -> bool:
     """Return True if the numbers of a line are small enough."""
-    return row[0] in ("exactpt-apart", "scene") or all(map(is_rational, row[1:]))
+    some = [w for w in row[1:] if "/" in w or len(w) > MAX_DIGITS]
+    return row[0] in ("exactpt-apart", "scene") or all(map(is_rational, some))
 
 
 class Interval:
     """A closed interval of time, and hulls of paths of vertices in it."""
 
     def __init__(self, start: Fraction, end: Fraction) -> None:
-        self.start, self.end, self.hulls = start, end, dict[int, Hull]()
-        self.grid = on_grid(start, end)
+        self.start, self.end, self.grid = start, end, on_grid(start, end)
+        self.hulls, self.work = dict[int, Hull](), dict[int, int]()
 
     def hull(self, scene: Scene, v: int) -> Hull:
         """Return the points of `hull` of all pieces of a vertex's path."""
         if v not in self.hulls:
             inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
-            times = pairwise([self.start, *inside, self.end])
-            of = [(scene.track(v, s), on_grid(s, e) if inside else self.grid) for s, e in times]
-            self.hulls[v] = [p for track, at in of for p in hull(track, *at)]
+            points = [] if inside else hull(scene.track(v, self.start), *self.grid)
+            for s, e in pairwise([self.start, *inside, self.end] if inside else []):
+                points += hull(scene.track(v, s), *on_grid(s, e))
+            self.hulls[v], self.work[v] = points, 4 * len(points) * words(points[0][3])
         return self.hulls[v]
 
 
@@ -400,22 +413,17 @@ def hull(track: Track, a: int, b: int, m: int) -> Hull:
     (Where a w is not positive no such point exists, but these multiples have that meaning.)
     """
     d = max(map(len, track)) - 1
-    WORK.spend(8 + words(a) + words(b) + words(m))
-    if d < 2 and len(track[2]) == 1:
-        (x, u), (y, v), (n, _) = ([*f, 0, 0][:2] for f in track)
+    f, g, h = track
+    WORK.spend(10 + words(a * b * m))
+    if d < 2 and len(h) == 1:
+        (x, u), (y, v), n = (*f, 0, 0)[:2], (*g, 0, 0)[:2], h[0]
         return [(x * m + u * t, y * m + v * t, n * t, n * m) for t in (a, b)]
     x, y, w = (spread(f, d, a, b, m) for f in track)
-    return [
-        (m * (p + q), m * (r + s), a * t + b * u, m * (t + u))
-        for p, q, r, s, t, u in zip(
-            [*x, 0], [0, *x], [*y, 0], [0, *y], [*w, 0], [0, *w], strict=True
-        )
-    ]
+    both = zip([*x, 0], [0, *x], [*y, 0], [0, *y], [*w, 0], [0, *w], strict=True)
+    return [(m * (p + q), m * (r + s), a * t + b * u, m * (t + u)) for p, q, r, s, t, u in both]
 
 
-def planes_of(
-    x: int, y: int, c: Fraction, v: Fraction, r: Fraction, far: Fraction
-) -> tuple[Plane, Plane]:
+def planes_of(x: int, y: int, c: Fraction, v: Fraction, r: Fraction, far: Fraction) -> Planes:
     """Two linear forms of (w x, w y, w t, w): below the first one, and not below the second one,
     paths are farther than r from a moving line on both sides, and than r + far on the second.
     """
@@ -430,9 +438,11 @@ def planes_of(
 
 def side_of(points: Hull, low: Plane, high: Plane) -> int:
     """-1 if points are below a first plane, 1 if none of them is below a second one, else 0."""
-    planes = (low,) if low == high else (low, high)
-    of = [[a * x + b * y + t * z + c * w for x, y, z, w in points] for a, b, t, c in planes]
-    return -1 if max(of[0]) < 0 else int(min(of[-1]) >= 0)
+    a, b, t, c = low
+    of = [a * x + b * y + t * z + c * w for x, y, z, w in points]
+    if low != high and max(of) >= 0:
+        return max(0, side_of(points, high, high))
+    return -1 if max(of) < 0 else int(min(of) >= 0)
 
 
 def are_near(places: Sequence[Whole], far: Fraction) -> bool:
@@ -480,8 +490,8 @@ class Checker:
         self.items = [(i, *edge) for i, some in edges for edge in some]
         self.radii = sorted({body.radius for body in scene.bodies})
         kinds = {r: k for k, r in enumerate(self.radii)}
-        self.kind = [kinds[scene.bodies[i].radius] for i in scene.body_of]
-        self.start, self.until = Fraction(span[1]), Fraction(span[2])
+        self.kind = [k for b in scene.bodies for k in [kinds[b.radius]] * b.size]
+        self.start, self.until = map(rational, span[1:])
         require(scene.start <= self.start <= self.until <= scene.end, "not a span of the scene")
         self.distance, self.selection, self.named = Fraction(0), "", set[Dart]()
         self.group, self.nodes = [*range(len(scene.bodies))], list[tuple[int, list[str]]]()
@@ -544,14 +554,14 @@ class Checker:
 
     def sides(self, items: list[int], time: Interval, row: list[str]) -> list[int]:
         """-1 for items below a moving line, 1 for those above it by more than the distance; 0."""
-        x, y, c, v = int(row[0]), int(row[1]), Fraction(row[2]), Fraction([*row, "0"][3])
+        x, y, c, v = int(row[0]), int(row[1]), rational(row[2]), rational([*row, "0"][3])
         require(x or y, "a line without a direction")
         ends = [self.items[i][1:] for i in items]
-        hulls = {u: time.hull(self.scene, u) for edge in ends for u in edge}
+        hulls = {u: time.hulls.get(u) or time.hull(self.scene, u) for u in {*chain(*ends)}}
         kinds = {self.kind[u] for u in hulls}
         planes = {k: planes_of(x, y, c, v, self.radii[k], self.distance) for k in kinds}
-        longest = max(words(low[3]) for low, _ in planes.values())
-        WORK.spend(4 * longest * sum(len(hull) * words(hull[0][3]) for hull in hulls.values()))
+        most = max(words(low[3]) for low, _ in planes.values())
+        WORK.spend(most * sum(map(time.work.__getitem__, hulls)))
         sides = {u: side_of(hull, *planes[self.kind[u]]) for u, hull in hulls.items()}
         return [sides[u] if sides[u] == sides[w] else 0 for u, w in ends]
 

@@ -8,8 +8,6 @@ It imports the standard library alone and uses no floats. docs/proofs.md has the
 A proof of no contact that ends before the scene is accepted by --until T, T not after its end, or
 by --partial. --expect compares with `exactpt collide --json`.
 
-Without -I, Python would run a fractions.py that lies nearby; so this file refuses to run then.
-
 Exit code: 0 accepted, 1 rejected (with the first line that fails, or what is proved and is not
 what was wanted), 2 no proof of this scene, 4 not decided: the budget of work is used up.
 """
@@ -109,6 +107,11 @@ def most_words(f: Iterable[Any]) -> int:
     return max(map(words, f), default=1)
 
 
+def longest(integers: Iterable[int]) -> int:
+    """Return the number of words of the longest of some integers."""
+    return words(max(map(abs, integers)))
+
+
 class Poly(tuple[Any, ...]):
     """A polynomial in t: coefficients, constant term first, none for 0.
 
@@ -118,10 +121,11 @@ class Poly(tuple[Any, ...]):
     __slots__ = ()
 
     def __new__(cls, coefficients: Iterable[Any] = ()) -> "Poly":  # noqa: D102
-        f = list(coefficients)
-        while f and not f[-1]:
-            f.pop()
-        return super().__new__(cls, f)
+        f = tuple.__new__(cls, coefficients)
+        n = len(f)
+        while n and not f[n - 1]:
+            n -= 1
+        return f if n == len(f) else tuple.__new__(cls, f[:n])
 
     def __add__(self, g: "Poly") -> "Poly":  # type: ignore[override]
         both = self and g
@@ -361,8 +365,7 @@ def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
             require(b.compare_rational(q) > 0, "times do not increase, or by too little")
             return q
         for time in (a, b):
-            if time.low < time.high:
-                time.refine()
+            time.refine()
     power = 1
     while floor(a.high * power) + 1 >= b.low * power:
         power *= 2
@@ -385,7 +388,7 @@ Whole = tuple[int, int, int]
 Entry = TypeVar("Entry", int, Poly)
 Triple = tuple[Entry, Entry, Entry]
 Turn = tuple[Poly, Point, Json]  # the half turn, the orientation, and the rest
-ONE = Poly([Fraction(1)])
+ONE, ZERO = Poly([Fraction(1)]), Poly()
 Poses = tuple[Point, list[Fraction], list[list[Poly]]]  # of a path: its errors, times and poses
 
 
@@ -413,17 +416,14 @@ def dot_of(a: Triple[Entry], v: Triple[Entry], b: Triple[Entry]) -> Entry:
     return px * qx + py * qy
 
 
-def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
-    """Return True if v is in the closed segment ab at a time."""
-    return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
-
-
 def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     """Return the values of polynomials in integers at a time, times one positive number."""
     n, d, k = t.numerator, t.denominator, max(map(len, polynomials))
+    if k < 2:
+        return [*map(sum, polynomials)]
     if (n | d) >> 64:
-        longest = max(map(most_words, polynomials))
-        WORK.spend(len(polynomials) * k**2 * words(d) * (k * words(n) + longest))
+        size = words(d) * (k * words(n) + longest(chain(*polynomials)))
+        WORK.spend(len(polynomials) * k**2 * size)
     powers = [n**i * d ** (k - 1 - i) for i in range(k)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
     WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6)))
@@ -447,7 +447,7 @@ def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
 def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
     """Return True if edges (numbers of vertices, counted from the first) meet only at joints."""
     spans, near = [], [((x << 256) // w, (y << 256) // w) for x, y, w in points]
-    product = most_words(chain(*points)) ** 2
+    product = longest(chain(*points)) ** 2
     for u, v in edges:
         WORK.spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0):
@@ -475,7 +475,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
 
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     """Return True if a ray from p to the right crosses a polygon an odd number of times."""
-    WORK.spend(len(ring) * (300 + 15 * most_words((*p, *ring[0])) ** 2))
+    WORK.spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
     above, odd = [q[1] * p[2] > p[1] * q[2] for q in ring], False
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]:
@@ -513,8 +513,14 @@ def need(condition: object, what: str, data: Json = "") -> None:
 
 def number(data: Json) -> Fraction:
     """Return the rational that a text, or a number of JSON, denotes."""
-    is_short = isinstance(data, str) and len(data) <= 3 * MAX_DIGITS
-    match = NUMBER.fullmatch(data) if is_short else None
+    need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, "not a number:", data)
+    return rational(data)
+
+
+@lru_cache(1000)
+def rational(data: str) -> Fraction:
+    """Return the rational that a text of few characters denotes; many are there several times."""
+    match = NUMBER.fullmatch(data)
     if match is None:
         raise NoProofError(f"the scene: not a number: {data!r:.60}")
     whole, under, minus, units, decimals, exponent = match.groups()
@@ -547,7 +553,7 @@ def entries(data: Json, length: int | None = None) -> list[Json]:
 
 def check_json(data: Json, levels: int) -> None:
     """Check a value that has no meaning here, and how deep it is."""
-    is_text = isinstance(data, str) and not re.search("[\ud800-\udfff]", data)
+    is_text = isinstance(data, str) and (data.isascii() or not re.search("[\ud800-\udfff]", data))
     need(is_text or not isinstance(data, (str, float)), "a number or text that is none:", data)
     if isinstance(data, (dict, list)):
         need(levels, "nested too deeply:", None)
@@ -578,11 +584,11 @@ class Motion:
         required = {"rigid": ["half_turn"], "affine": ["matrix"], "": []}[kind]
         given = keys(keys(data, [kind])[kind] if kind else data, required, ["x", "y", *optional])
         x, y = (polynomial(given.get(k, [])) for k in "xy")
-        m, high = [ONE, Poly(), Poly(), ONE], max(of_shape, degree(x, y))
+        m, high = [ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y))
         if kind == "affine":
             m = [polynomial(p) for row in entries(given["matrix"], 2) for p in entries(row, 2)]
             high = max(of_shape + degree(*m), degree(x, y))
-        h = polynomial(given.get("half_turn", []))
+        h = polynomial(given["half_turn"]) if kind == "rigid" else ZERO
         need(high + 2 * degree(h) <= MAX_DEGREE, f"a degree above {MAX_DEGREE}")
         self.keeps_lengths = kind != "affine"  # own
         form = *m, x, y, ONE
@@ -595,19 +601,24 @@ class Motion:
             w, cosine, sine = ONE + h * h, ONE - h * h, h + h
             a, b = cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s])
             e, f = w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q
-            form = a, Poly() - b, b, a, e, f, w
-        self.form = cleared(*form)[:7]
-        self.cost = sum(map(len, self.form)) * (300 + 2 * most_words(chain(*self.form)) ** 2)
+            form = a, ZERO - b, b, a, e, f, w
+        e, f, w = cleared(x, y)
+        self.form = cleared(*form)[:7] if kind else (w, ZERO, ZERO, w, e, f, w)
+        self.columns = [*zip_longest(*self.form, fillvalue=0)]
+        self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
 
     def track(self, x: Poly, y: Poly, z: Poly) -> Track:
         """Return the track of a vertex at (x / z, y / z)."""
-        WORK.spend(self.cost * (len(x) + len(y)))
-        a, b, c, d, e, f, w = self.form
-        found = x * a + z * e, y * d + z * f, z * w
-        if b or c:
-            found = found[0] + y * b, found[1] + x * c, found[2]
+        rows = [*zip_longest(x, y, z, fillvalue=0)]
+        WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
+        found = [[0] * (len(self.columns) + len(rows) - 1) for _ in "xyw"]
+        for i, (p, q, r) in enumerate(rows):
+            for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
+                found[0][j] += a * p + b * q + e * r
+                found[1][j] += c * p + d * q + f * r
+                found[2][j] += w * r
         m = gcd(*chain(*found))
-        x, y, w = (Poly([k // m for k in g]) for g in found) if m > 1 else found
+        x, y, w = (Poly([k // m for k in g]) for g in found)
         return x, y, w
 
 
@@ -635,7 +646,7 @@ class Body:
         need(type(self.name) is str and self.name, "a name:", self.name)
         need(isinstance(closed, bool), "closed:", closed)
         self.radius = number(body.get("radius", "0"))
-        need(self.radius >= 0, "a radius:", body.get("radius"))
+        need(self.radius.numerator >= 0, "a radius:", body.get("radius"))
         need(isinstance(body.get("properties", {}), dict), "properties:", self.name)
         check_json([self.name, body.get("properties")], 30)
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
@@ -652,7 +663,7 @@ class Body:
         self.read_motion(body.get("motion", {}))
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)})
-        self.parts = list[list[range]]()
+        self.parts: list[list[range]] = []
         for part in rings if several else [[self.vertices]]:
             bounds = accumulate(map(len, part), initial=first)
             self.parts.append([range(i, j) for i, j in pairwise(bounds)])
@@ -660,18 +671,17 @@ class Body:
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         ends = [(ring, [(ring[-1], ring[0])][: self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks: dict[tuple[int, int], Track] = {}
-        self.at_start = self.places(start)
+        self.tracks, self.at_start = dict[tuple[int, int], Track](), self.places(start)
         self.check_simple(self.at_start)
 
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
-        of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
-        rows, given = [{"motion": data}], dict[str, Json]()
-        if isinstance(data, dict) and "pieces" in data:
-            given = keys(data, ["pieces"], ["spin", "path"])
-            need(len(given) < 3, "both a spin and a path:", data)
-            rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
+        of_shape = 1 if self.frames else degree(*chain(*self.shape))
+        several = isinstance(data, dict) and "pieces" in data
+        given = keys(data, ["pieces"], ["spin", "path"]) if several else {}
+        need(len(given) < 3, "both a spin and a path:", data)
+        pieces = entries(given["pieces"]) if several else [{"motion": data}]
+        rows = [keys(p, ["motion"], ["until"]) for p in pieces]
         whole = rows and "until" not in rows[-1] and all("until" in p for p in rows[:-1])
         need(whole, '"until" belongs to all pieces but the last:', data)
         self.ends = [number(p["until"]) for p in rows[:-1]]
@@ -701,7 +711,7 @@ class Body:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
         motion = motion or self.motions[bisect_right(self.ends, t)]
         a, b, c, d, e, f, w = form = values(motion.form, t)
-        WORK.spend(self.size * (1000 + 30 * most_words(form)))
+        WORK.spend(self.size * (1000 + 30 * longest(form)))
         shape = (values(self.coordinates(i, t), t) for i in range(self.size))
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
 
@@ -752,7 +762,8 @@ def vertex(data: Json) -> tuple[Poly, ...]:
         return cleared(*(polynomial(given.get(k, [])) for k in "xy"))
     x, y = point(data)
     m = lcm(x.denominator, y.denominator)
-    return (*(Poly([c.numerator * (m // c.denominator)]) for c in (x, y)), Poly([m]))
+    p, q = x.numerator * (m // x.denominator), y.numerator * (m // y.denominator)
+    return Poly([p]), Poly([q]), Poly([m])
 
 
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
@@ -1027,8 +1038,7 @@ class PlanarMap:
     """
 
     def __init__(self, vertices: int) -> None:
-        self.after: dict[Dart, Dart] = {}
-        self.out: list[set[int]] = [set() for _ in range(vertices)]
+        self.after, self.out = dict[Dart, Dart](), [set[int]() for _ in range(vertices)]
         self.component, self.components = [0] * vertices, 0
         self.faces, self.face_of = set[Face](), dict[Dart, Face]()
 
@@ -1058,8 +1068,7 @@ class PlanarMap:
 
     def clockwise(self, v: int) -> list[int]:
         """Return the vertices to which v has an edge, in clockwise order."""
-        order: list[int] = []
-        u = next(iter(self.out[v]), -1)
+        order, u = list[int](), next(iter(self.out[v]), -1)
         while u >= 0 and (not order or u != order[0]):
             order.append(u)
             u = self.after[u, v][1]
@@ -1119,8 +1128,7 @@ class PlanarMap:
         WORK.spend(100 * len(pool))
         for d in pool:
             self.face_of.pop(d, None)
-        pool = {d for d in pool if d in self.after}
-        new = set[Face]()
+        pool, new = {d for d in pool if d in self.after}, set[Face]()
         while pool:
             face = [min(pool)]
             while (d := self.after[face[-1]]) != face[0]:
@@ -1130,8 +1138,7 @@ class PlanarMap:
             self.face_of.update(dict.fromkeys(face, tuple(face)))
         self.faces -= old
         self.faces |= new
-        v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
-        euler = 2 * self.components
+        v, e, f, euler = len(self.out), len(self.after) // 2, len(self.faces), 2 * self.components
         require(v - e + f == euler, f"{v} vertices, {e} edges, {f} faces: V - E + F is not {euler}")
         return new
 
@@ -1166,9 +1173,7 @@ class Checker:
         self.rings: list[list[int]] = []  # of rigid closed bodies, which are on their left
         self.holes: list[int] = []  # a vertex of each of those that bound holes
         self.ahead: dict[int, int] = {}  # on a ring of a closed body, which is on the left
-        self.rigid: list[bool] = []
-        self.solid: set[Dart] = set()
-        self.life: dict[Dart, Lifetime] = {}
+        self.rigid, self.solid, self.life = list[bool](), set[Dart](), dict[Dart, Lifetime]()
         self.new_angles, self.new_faces, self.outer = set[Dart](), set[Face](), set[Face]()
 
     # The lines, and step 7: times increase.
@@ -1328,8 +1333,7 @@ class Checker:
 
     def event(self, time: Time, words: list[str]) -> None:
         """Apply and check all changes at one time."""
-        items: dict[str, list[list[int]]] = {"-": [], "+": [], "=": []}
-        item: list[int] = []
+        item, items = list[int](), {kind: list[list[int]]() for kind in "-+="}
         for word in words:
             if word in items:
                 items[word].append(item := [])
@@ -1378,11 +1382,9 @@ class Checker:
             require(passes == 1, f"the edges of vertex {v} go around it {passes} times")
         self.new_angles.clear()
         if self.now.compare_rational(start := self.scene.start) == 0:
-            vanishing = set()
-            for (v, w), life in self.life.items():
-                tracks = [self.scene.track(x, start) for x in (life.u, v, w)]
-                if life.form(*tracks).sign_at(start) == 0:
-                    vanishing.add(self.map.face_of[v, w])
+            lives = [((life.u, *d), d, life) for d, life in self.life.items()]
+            forms = [(d, k.form(*(self.scene.track(x, start) for x in u))) for u, d, k in lives]
+            vanishing = {self.map.face_of[d] for d, f in forms if f.sign_at(start) == 0}
             self.check_clusters(vanishing, self.now)
 
     def check_face(self, face: Face, sample: Fraction) -> None:
@@ -1391,8 +1393,7 @@ class Checker:
         if face and face[0] in self.solid:
             return
         kinds = [self.life[d].kind for d in face]
-        convex = kinds.count(CONVEX)
-        shown = " ".join(str(u) for u, _ in face)
+        convex, shown = kinds.count(CONVEX), " ".join(str(u) for u, _ in face)
         if convex == 0:
             within = any(self.map.component[v] not in self.outermost for v, _ in face)
             require(not within, f"the face {shown} of a hole has no convex angle")
@@ -1420,8 +1421,7 @@ class Checker:
     def end_life(self, d: Dart, time: Time) -> bool:
         """Check the life of an angle; return True if the angle vanishes at its end."""
         life = self.life.pop(d)
-        angle = (life.u, *d)
-        i = self.scene.body_of[d[0]]
+        angle, i = (life.u, *d), self.scene.body_of[d[0]]
         if self.rigid[i] and all(self.scene.body_of[v] == i for v in angle):
             return False
         shown = f"the {life.kind} angle {life.u} {d[0]} {d[1]} of line {life.line}"
@@ -1463,8 +1463,7 @@ class Checker:
             x, y = vector_of(tracks[v], tracks[u])
             return time.sign_of(x) or time.sign_of(y)
 
-        groups: list[list[int]] = []
-        rank: dict[int, int] = {}
+        groups, rank = list[list[int]](), dict[int, int]()
         for v in sorted(tracks, key=cmp_to_key(order)):
             if not groups or order(groups[-1][0], v):
                 groups.append([])
@@ -1500,7 +1499,9 @@ class Checker:
         if kind in ("vertex vertex", "vertex edge"):
             tracks = scene.tracks_at(v, time)
             there = v[0] not in v[1:] and (len(v) == 2 or (v[1], v[2]) in self.body_darts)
-            there = there and is_on(time, *(tracks[u] for u in (v[0], v[1], v[-1])))
+            c, a, b = (tracks[u] for u in (v[0], v[1], v[-1]))
+            there = there and time.sign_of(orientation_of(c, a, b)) == 0
+            there = there and time.sign_of(dot_of(a, c, b)) <= 0
         elif kind == "edge edge":
             there = at_start and {(v[0], v[1]), (v[2], v[3])} <= self.body_darts
             there = there and meet(*(scene.place(u, scene.start) for u in v))
@@ -1540,7 +1541,7 @@ R, V = r"-?[0-9]++(/[0-9]++)?", "[0-9]{1,9}"  # a rational, and a vertex or body
 TIME = f"{R} {R}( @( {V}){{2,3}}|( -?[0-9]++)*+)"
 ITEM = f" -( {V}){{2}}| =( {V}){{2}}| [+]( {V}){{4}}"
 WHAT = f"vertex {V} (vertex|inside|edge {V}) {V}|edge {V} {V} edge {V} {V}"
-FORMS = {  # of lines, by their first words
+LINES = {  # by their first words
     "exactpt-proof": "exactpt-proof 1",
     "scene": "scene sha256 [^ ]+",
     "span": f"span {R} {R}",
@@ -1549,6 +1550,7 @@ FORMS = {  # of lines, by their first words
     "contact": f"contact {TIME} ({WHAT})",
     "none": "none",
 }
+FORMS = {word: re.compile(form) for word, form in LINES.items()}
 STARTS = ("-", "+", "=", "vertex", "edge")  # of what follows the time in a line
 ORDER = "exactpt-proof scene span( face| inside| outer)*+( event)*+ (contact|none)"
 
@@ -1578,8 +1580,8 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
             raise NoProofError(f"line {i} is too long")
         row = re.findall(r"[^ \t\r]+", line.decode())
         if row and not line.startswith(b"#"):
-            form = FORMS.get(row[0], "none")
-            if not re.fullmatch(form, " ".join(row)) or not is_bounded(row):
+            form = FORMS.get(row[0], FORMS["none"])
+            if not form.fullmatch(" ".join(row)) or not is_bounded(row):
                 raise NoProofError(f"line {i} is not in the format")
             rows.append((i, row))
     if not re.fullmatch(ORDER, " ".join(row[0] for _, row in rows)):
@@ -1715,8 +1717,7 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
     if not numbers or numbers[0] != 1:
         raise NoProofError(f"{str(folder)!a} has no 1.proof")
     require(numbers[-1] == len(numbers), "rejected: the numbers of the parts have a gap")
-    seams, last, start = list[str](), None, Fraction(0)
-    chain = ["exactpt-chain 1"]
+    seams, last, start, chain = list[str](), None, Fraction(0), ["exactpt-chain 1"]
     for k in numbers:
         try:
             scene, proof = (file_bytes(folder / f"{k}.{e}") for e in ("scene.json", "proof"))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
-from typing import Any, Final, final
+from typing import Any, Final, TypeAlias, final
 
 import numpy as np
 
@@ -28,6 +28,8 @@ MANY: Final = 24
 """Number of items up to which edges and nearest vertices propose directions, too."""
 FINEST: Final = 2**40
 """Times are not halved further than to this part of the span."""
+Node: TypeAlias = tuple[Items, Frame | tuple[Fraction, Fraction], int]
+"""Items, their interval, and the number of nodes above."""
 PLACES: Final = np.array([20, 35, 50, 65, 80])
 """Percentages of the items below lines that some items cross."""
 
@@ -55,17 +57,17 @@ class Separation:
         self._groups = groups
         self._group = np.array(groups, dtype=np.intp)[self._body]
 
-    def lines(self, start: Fraction, end: Fraction) -> Iterator[str]:
-        """Yield the lines of the nodes, for all items from start to end.
+    @np.errstate(all="ignore")  # a line from an overflow is not proposed
+    def lines(self, start: Fraction, end: Fraction) -> list[str]:
+        """Return the lines of the nodes, for all items from start to end.
 
         Raises:
             BudgetExceeded: if bodies are too near to each other, or there are too many nodes.
         """
         items = np.arange(len(self._body), dtype=np.intp)
-        span, nodes, most = end - start, 0, 1000 + 50 * len(items)
-        todo: list[tuple[Items, Frame | tuple[Fraction, Fraction], int]] = [
-            (items, (start, end), 0)
-        ]
+        span, most = end - start, 1000 + 50 * len(items)
+        lines: list[str] = []
+        todo: list[Node] = [(items, (start, end), 0)]
         while todo:
             items, time, depth = todo.pop()
             present = set(self._body[items].tolist())
@@ -77,14 +79,13 @@ class Separation:
                 items = items[np.isin(self._body[items], np.ravel(here))]
                 present = {i for pair in here for i in pair}
             frame = time if isinstance(time, Frame) else Frame(self._paths, items, *time)
-            nodes += 1
-            if nodes > most:
+            if len(lines) >= most:
                 raise BudgetExceeded(f"a certificate of more than {most} nodes is needed", None)
             found = self._between_bodies(frame, items, present)
             found = found or self._cut(frame, items, frame.rows(items))
             if found is not None:
                 plane, below, above = found
-                yield plane.line()
+                lines.append(plane.line())
                 todo += [(items[~below], frame, depth + 1), (items[~above], frame, depth + 1)]
                 continue
             start, end = frame.time.start, frame.time.end
@@ -93,15 +94,16 @@ class Separation:
             several, is_short = items[mine], start == end or (end - start) * 64 < span
             if len(several) > 1 and (depth % 2 or is_short):
                 middle = int(several[len(several) // 2])
-                yield f"s {body} {middle}"
+                lines.append(f"s {body} {middle}")
                 parts = [items[~(mine & (items < middle))], items[~(mine & (items >= middle))]]
                 todo += [(part, frame, depth + 1) for part in parts]
                 continue
             if (end - start) * FINEST < span or start == end:
                 raise BudgetExceeded("bodies are too near to each other for a certificate", None)
             q = self._middle(items, start, end)
-            yield "t" if q == (start + end) / 2 else f"t {q}"
+            lines.append("t" if q == (start + end) / 2 else f"t {q}")
             todo += [(items, (q, end), depth + 1), (items, (start, q), depth + 1)]
+        return lines
 
     def _middle(self, items: Items, start: Fraction, end: Fraction) -> Fraction:
         """Return the breakpoint of a body that is next to the middle of the time, or the middle."""
@@ -110,7 +112,6 @@ class Separation:
         breaks = {q for i in bodies for q in self._paths.breaks[i].breaks if start < q < end}
         return min(breaks, key=lambda q: (abs(q - middle), q)) if breaks else middle
 
-    @np.errstate(all="ignore")
     def _between_bodies(
         self, frame: Frame, items: Items, present: set[int]
     ) -> tuple[Plane, Any, Any] | None:
@@ -128,7 +129,6 @@ class Separation:
         below = sides[self._body[items]]
         return plane, below, ~below
 
-    @np.errstate(all="ignore")  # a line from an overflow is not proposed
     def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:
         """Return a good moving line, with the items below and above it; None if there is none."""
         for cut, most in self._proposed(frame, items, rows):
@@ -204,8 +204,8 @@ class Separation:
         group = self._group[items]
         mine = group == group[0]
         if len(items) <= MANY or len(np.unique(group)) == 2:
+            a, b = (np.unique(frame.ends_of[rows[part]].ravel()) for part in (mine, ~mine))
             for at in frame.ends:
-                a, b = (np.unique(frame.ends_of[rows[part]].ravel()) for part in (mine, ~mine))
                 apart = at[a][:, None] - at[b][None]
                 i, j = np.unravel_index(int((apart**2).sum(axis=2).argmin()), apart.shape[:2])
                 found.append(apart[i, j][None])
@@ -214,4 +214,5 @@ class Separation:
         raw = raw[(size[:, 0] > 0) & np.isfinite(size[:, 0])]
         raw /= np.abs(raw).max(axis=1, keepdims=True) if len(raw) else 1.0
         grids = (1e3, 2.0**50) if len(items) <= FEW else (1e3,)
-        return np.concatenate([np.unique(np.rint(raw * grid), axis=0) for grid in grids])
+        rounded = (np.rint(raw * grid).tolist() for grid in grids)
+        return np.array([row for rows in rounded for row in sorted({*map(tuple, rows)})])

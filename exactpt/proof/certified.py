@@ -23,12 +23,12 @@ from exactpt.pairs.contact import Contact
 from exactpt.pairs.selection import Selection
 from exactpt.proof.apart import Separation
 from exactpt.proof.degrees import refuse_degrees
-from exactpt.proof.emit import beside, scene_bytes
+from exactpt.proof.emit import beside
 from exactpt.proof.meeting import Meetings
 from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
 from exactpt.scene.scene import Scene, a_scene
-from exactpt.scene.written import to_json
+from exactpt.scene.written import scene_bytes, to_json
 
 if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, final
@@ -17,7 +16,7 @@ from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Step, Watch
-from exactpt.scene.written import to_json
+from exactpt.scene.written import scene_bytes
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
@@ -26,11 +25,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
-
-
-def scene_bytes(scene: Scene) -> bytes:
-    """Return the bytes that `Scene.save` writes: the file to which a proof of this scene refers."""
-    return (json.dumps(to_json(scene), indent=1) + "\n").encode()
 
 
 def beside(path: Path) -> Path:

@@ -6,7 +6,7 @@ Doubles propose moving lines, and show on which side of them items are, if by mo
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain, groupby
@@ -19,11 +19,14 @@ from exactpt.kernel.numbers import rational
 from exactpt.proof.paths import Items, Paths, Plane, short
 
 if TYPE_CHECKING:
+    from exactpt.kernel.numbers import QQ
     from exactpt.proof.whole import WholeBodies
 
 Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 Extents: TypeAlias = "tuple[Floats, Floats]"
 Points: TypeAlias = "list[tuple[float, float, float]]"
+Place: TypeAlias = "tuple[float, float]"
+Moved: TypeAlias = "tuple[tuple[Sequence[float], Sequence[float], bool], Place, Place]"
 
 DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
 ERROR: Final = 1e-12
@@ -63,6 +66,7 @@ class Frame:
         ends_of: the two vertices of each item.
         bodies: those that have items, in order.
         row_of: the place of each of them in ``bodies``.
+        is_straight: whether all paths are linear, with two control points each.
         whole: the bodies as wholes, if they have been compared as such.
     """
 
@@ -75,21 +79,23 @@ class Frame:
         ends = [paths.items[i][1:] for i in items.tolist()]
         row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
         self.ends_of = np.array([(row[u], row[v]) for u, v in ends])
-        x, y, _, w = self.time.hull(paths, next(iter(row)))[0]  # type: ignore[arg-type]
-        self._origin, self._size = (int(x // w), int(y // w)), 0.0
-        points, self.bodies, self._first_vertices = list[Points](), list[int](), list[int]()
-        for i, some in groupby(row, paths.body_of.__getitem__):
-            self.bodies.append(i)
+        vertices = {i: [*some] for i, some in groupby(row, paths.body_of.__getitem__)}
+        self.bodies, points, self._first_vertices = [*vertices], list[Points](), list[int]()
+        moved = {i: self._translation(i) for i in self.bodies}
+        self._origin, self._size = self._near(next(iter(row)), moved[self.bodies[0]]), 0.0
+        for i, some in vertices.items():
             self._first_vertices.append(len(points))
-            vertices = [*some]
-            points += self._translating(i, vertices) or map(self._exactly, vertices)
+            of = moved[i]
+            points += map(self._exactly, some) if of is None else self._translating(i, some, of)
         self._points = np.array([*chain(*points)])  # (x, y, t) of all control points
         self._starts = np.cumsum([0, *map(len, points)])
         firsts, lasts = self._starts[:-1], self._starts[1:] - 1
-        self.ends = np.stack([self._points[firsts, :2], self._points[lasts, :2]])
+        self.ends = self._points[:, :2][np.array([firsts, lasts])]
         self.row_of = {i: k for k, i in enumerate(self.bodies)}
-        largest = float(np.nanmax(np.abs(self._points[:, :2]), initial=0.0))
-        self._size = max(self._size, largest)
+        sizes = np.abs(self._points[:, :2])
+        largest = float(sizes.max(initial=0.0))
+        self.is_straight = len(self._points) == 2 * len(points) and not math.isnan(largest)
+        self._size = max(self._size, float(np.nanmax(sizes)) if math.isnan(largest) else largest)
 
     def _exactly(self, v: int) -> Points:
         """Return the control points of a vertex, correctly rounded."""
@@ -101,20 +107,41 @@ class Frame:
             for x, y, t, w in self.time.hull(self._paths, v)  # type: ignore[arg-type]
         ]
 
-    def _translating(self, body: int, vertices: Sequence[int]) -> list[Points]:
-        """Return the control points of the vertices of a body, by its shape in doubles.
+    @cached_property
+    def _span(self) -> tuple[QQ, QQ]:
+        return rational(self.time.start), rational(self.time.end)
 
-        None of them if it does not translate by one linear formula, or its shape has no doubles.
+    def _translation(self, body: int) -> Moved | None:
+        """Return the shape of a body in doubles, and where it is moved at the start and the end.
+
+        None if it does not translate by one linear formula, or its shape has no doubles.
         """
-        s, e = rational(self.time.start), rational(self.time.end)
+        s, e = self._span
         piece = self._paths.bodies[body]._piece_after(s)
         if piece.translation is None or (piece.until is not None and piece.until < e):
-            return []
-        (xs, ys, is_exact), motion = piece.translation
-        a, b = self._origin
-        if max(motion.x.degree, motion.y.degree) > 1 or max(abs(a), abs(b)) > EXACT:
-            return []
+            return None
+        shape, motion = piece.translation
+        if max(motion.x.degree, motion.y.degree) > 1:
+            return None
         (i, j), (k, m) = (map(float, motion._at(t)) for t in (s, e))
+        return shape, (i, j), (k, m)
+
+    def _near(self, v: int, moved: Moved | None) -> tuple[int, int]:
+        """Return an integer point near a vertex at the start."""
+        if moved is not None:
+            (xs, ys, _), (i, j), _ = moved
+            k = v - self._paths.first[self.bodies[0]]
+            x, y = xs[k] + i, ys[k] + j
+            if max(abs(x), abs(y)) <= EXACT:
+                return math.floor(x), math.floor(y)
+        p, q, _, w = self.time.hull(self._paths, v)[0]  # type: ignore[arg-type]
+        return int(p // w), int(q // w)
+
+    def _translating(self, body: int, vertices: Sequence[int], moved: Moved) -> Iterable[Points]:
+        """Return the control points of the vertices of a body, by its shape in doubles."""
+        ((xs, ys, is_exact), (i, j), (k, m)), (a, b) = moved, self._origin
+        if max(abs(a), abs(b)) > EXACT:
+            return map(self._exactly, vertices)
         first, length = self._paths.first[body], self.length
         rest = [(xs[v - first] - a, ys[v - first] - b) for v in vertices]
         sizes = [*map(abs, (i, j, k, m, *chain(*rest)))]
@@ -198,8 +225,24 @@ class Frame:
                 return False
         return True
 
+    def is_between(self, plane: Plane, below: Place, above: Place) -> bool:
+        """Return True if it is certain that a line is between extents at the start and the end.
+
+        So it is at all times, if all paths are straight. The extents are those of `body_extents`.
+        """
+        v, c, norm, error = self._in_doubles(plane)
+        c += norm * self._paths.extra
+        d = c + v * self.length
+        low, high = min(c - below[0], d - below[1]), min(above[0] - c, above[1] - d)
+        return low > error and high > error
+
     def _values(self, plane: Plane) -> tuple[Floats, float, float]:
         """Return n·p - c - v t at all control points, |n|, and a bound of the error of a test."""
+        v, c, norm, error = self._in_doubles(plane)
+        return self._points @ np.array([plane.x, plane.y, -v], dtype=float) - c, norm, error
+
+    def _in_doubles(self, plane: Plane) -> tuple[float, float, float, float]:
+        """Return v, c at the start near the origin, |n|, and a bound of the error of a test."""
         x, y, extra = float(plane.x), float(plane.y), self._paths.extra
         at = plane.c + plane.v * self.start if plane.v and self.start else plane.c
         v, c = float(plane.v), float(at - (plane.x * self._origin[0] + plane.y * self._origin[1]))
@@ -207,4 +250,4 @@ class Frame:
         size = (abs(x) + abs(y)) * self._size + abs(v) * self.length + abs(c)
         error = ERROR * (size + norm * (self._paths.widest + extra))
         error += TINY * (abs(x) + abs(y) + abs(v) + self.length + 1)
-        return self._points @ np.array([x, y, -v]) - c, norm, error
+        return v, c, norm, error

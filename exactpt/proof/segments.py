@@ -18,9 +18,10 @@ from exactpt.collision.driver import CHANGES, Observer
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
 from exactpt.proof.degrees import refuse_degrees
-from exactpt.proof.emit import Part, ProofRun, scene_bytes
+from exactpt.proof.emit import Part, ProofRun
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes, rigid_until
+from exactpt.scene.written import scene_bytes
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge

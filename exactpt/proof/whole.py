@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from itertools import accumulate
-from typing import Final, final
+from typing import Final, TypeAlias, final
+
+import numpy as np
 
 from exactpt.proof.frame import DIRECTIONS, Cut, Frame
 from exactpt.proof.paths import Plane
@@ -15,6 +17,10 @@ CLEAR: Final = 1e-6
 """Smallest gap between whole bodies, relative to the extent of all: doubles decide of it."""
 AT_REST: Final = 0.25
 """Part of the gap of a moving line from which on a gap is enough for a line at rest."""
+
+Ends: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+Found: TypeAlias = tuple[float, Cut, set[int], Ends]
+"""The worth of a line, the line, the bodies below it, and the extents on both of its sides."""
 
 
 @final
@@ -31,22 +37,15 @@ class WholeBodies:
         self._group = [groups[i] for i in frame.bodies]
         self._are_grouped = len({*self._group}) < len(self._group)
         low, high = frame.body_extents(DIRECTIONS)
-        self._extents = [
-            (s, e, t, f, m)
-            for (s, e), (t, f), m in zip(
-                low.transpose(2, 0, 1).tolist(),
-                high.transpose(2, 0, 1).tolist(),
-                (low + high).sum(axis=0).T.tolist(),
-                strict=True,
-            )
-        ]
+        middles = (low + high).sum(axis=0, keepdims=True)
+        self._extents = np.concatenate([low, high, middles]).transpose(2, 0, 1).tolist()
 
     def cut(self, present: Collection[int]) -> tuple[Plane, set[int]] | None:
         """Return a line between some of these bodies, which are below it, and all others.
 
         None if there is none in the usual directions with enough room.
         """
-        best: tuple[float, Cut, set[int]] | None = None
+        best: Found | None = None
         rows = [self._frame.row_of[i] for i in present]
         for j in range(len(DIRECTIONS)):
             found = self._best(j, rows)
@@ -56,11 +55,16 @@ class WholeBodies:
                     break
         if best is None:
             return None
-        _, cut, below = best
-        plane = self._frame.plane(cut)
-        return (plane, below) if self._frame.separates(plane, below, present) else None
+        _, cut, below, ends = best
+        plane, is_straight = self._frame.plane(cut), self._frame.is_straight
+        certain = (
+            self._frame.is_between(plane, *ends)
+            if is_straight
+            else self._frame.separates(plane, below, present)
+        )
+        return (plane, below) if certain else None
 
-    def _best(self, j: int, rows: Sequence[int]) -> tuple[float, Cut, set[int]] | None:
+    def _best(self, j: int, rows: Sequence[int]) -> Found | None:
         """Return the line of most worth in a direction, with the bodies below it."""
         lows, low_ends, highs, high_ends, middles = self._extents[j]
         rows = sorted(rows, key=middles.__getitem__)
@@ -93,6 +97,7 @@ class WholeBodies:
             best,
             self._frame.cut(best, (x, y), ((a + c) / 2, (b + d) / 2), min(c - a, d - b)),
             {self._bodies[k] for k in rows[-at:]},
+            ((a, b), (c, d)),
         )
 
     def _is_leaf(self, rows: Sequence[int]) -> bool:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically
-from exactpt.proof.emit import ProofRun, beside, scene_bytes
+from exactpt.proof.emit import ProofRun, beside
 from exactpt.scene.scene import Scene, a_scene
+from exactpt.scene.written import scene_bytes
 
 if TYPE_CHECKING:
     from exactpt.check_apart import Proved as Certified

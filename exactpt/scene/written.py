@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from json.encoder import encode_basestring_ascii
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -97,15 +98,24 @@ def json_properties(body: Body) -> dict[str, object]:
 
 
 def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:
-    outline, *holes = ([_vertex_to_json(body.vertices[i]) for i in ring] for ring in rings)
+    doubles = body._shape.doubles
+    if doubles is None:
+        vertices = [*map(_vertex_to_json, body.vertices)]
+    else:
+        vertices = [[_of_double(x), _of_double(y)] for x, y in zip(*doubles, strict=True)]
+    outline, *holes = (vertices[ring.start : ring.stop] for ring in rings)
     return {"vertices": outline, "holes": holes} if holes else {"vertices": outline}
 
 
+def _of_double(x: float) -> str:
+    """Return what `_text` does of its value."""
+    n, d = x.as_integer_ratio()
+    return f"{n}/{d}" if d > 1 else str(n)
+
+
 def _vertex_to_json(vertex: Position) -> object:
-    x, y = vertex
-    if x.degree <= 0 and y.degree <= 0:
-        return [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
-    return {"x": _coefficients(x), "y": _coefficients(y)}
+    x, y = map(_coefficients, vertex)
+    return [*x, *y] if len(x) == len(y) == 1 else {"x": x, "y": y}
 
 
 def _motion_to_json(motion: Motion) -> dict[str, object]:
@@ -153,6 +163,29 @@ def _path_to_json(path: PosePath) -> dict[str, object]:
     }
 
 
+def scene_bytes(scene: Scene) -> bytes:
+    """Return the bytes of the scene's file: those to which a proof of it refers."""
+    return (_indented(to_json(scene), "\n") + "\n").encode()
+
+
 def save(scene: Scene, path: Path) -> None:
     """Write a scene file atomically."""
-    write_atomically(path, json.dumps(to_json(scene), indent=1) + "\n")
+    write_atomically(path, scene_bytes(scene))
+
+
+def _indented(data: object, line: str) -> str:
+    """Return what ``json.dumps(data, indent=1)`` does: its own encoder takes much longer.
+
+    Args:
+        data: the data, with texts as keys.
+        line: the end of a line, and the indentation of the next one.
+    """
+    if isinstance(data, str):
+        return encode_basestring_ascii(data)
+    more = f"{line} "
+    if data and isinstance(data, list):
+        return f"[{more}{f',{more}'.join([_indented(value, more) for value in data])}{line}]"
+    if data and isinstance(data, dict):
+        pairs = [f"{_indented(key, more)}: {_indented(data[key], more)}" for key in data]
+        return f"{{{more}{f',{more}'.join(pairs)}{line}}}"
+    return json.dumps(data)

@@ -14,9 +14,9 @@ from random import Random
 from typing import Final, NamedTuple
 
 from exactpt import InputError, Scene, prove
-from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import families, generate
+from exactpt.scene.written import scene_bytes
 from exactpt.tiling.start import tilings_for
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit

@@ -10,8 +10,9 @@ from typing import Final
 from exactpt import AuditError, Body, InputError, Scene, Translation
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.proof.changes import change, followers
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.proof.emit import ProofRun
 from exactpt.proof.lines import header
+from exactpt.scene.written import scene_bytes
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["spliced", "touching_and_going", "wheel", "wrong_splice"]

@@ -8,7 +8,8 @@ import pytest
 
 from exactpt import InputError, proof_check
 from exactpt.cgal import check_proof
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.proof.emit import ProofRun
+from exactpt.scene.written import scene_bytes
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict", "without_hash"]

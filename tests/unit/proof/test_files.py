@@ -209,7 +209,7 @@ def test_what_is_no_scene(text):
 
 @pytest.mark.parametrize("family", ["turning", "keyframed", "pieces", "deforming", "clamps"])
 def test_tracks_are_those_of_the_package(family):
-    from exactpt.proof.emit import scene_bytes
+    from exactpt.scene.written import scene_bytes
 
     scene = generate(family, 5)
     read = proof_check.Scene(scene_bytes(scene).decode())

@@ -8,9 +8,10 @@ from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noq
 
 from exactpt import AuditError, Body, Scene, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.proof.emit import ProofRun
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
+from exactpt.scene.written import scene_bytes
 from exactpt.tiling import engine, touching
 from fuzz.proofs.wrong import spliced, touching_and_going
 from fuzz.questions.all_pairs import first_contact_allpairs

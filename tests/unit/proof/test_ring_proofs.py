@@ -9,9 +9,9 @@ from folding import every
 from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Scene, Translation
-from exactpt.proof.emit import scene_bytes
 from exactpt.proof.lines import header
 from exactpt.scene.generate import RINGS, generate
+from exactpt.scene.written import scene_bytes
 from exactpt.tiling.start import TILINGS
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")

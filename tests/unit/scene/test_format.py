@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from oracles import body_at, exact
 from strategies import as_rational, fractions, scene_data
 
-from exactpt import Body, InputError, Scene
+from exactpt import Body, InputError, Polynomial, Scene, Translation
 from exactpt.motion.motions import REST
 from exactpt.scene.format import load, loads
-from exactpt.scene.written import save, to_json
+from exactpt.scene.written import save, scene_bytes, to_json
 
 SCENES = Path(__file__).parents[2] / "data" / "scenes"
 NAMES = sorted(path.stem for path in SCENES.glob("*_*.json"))
@@ -666,3 +666,20 @@ def test_the_error_for_another_format_names_the_command_that_converts_it(tmp_pat
     path.write_text('{"type": "FeatureCollection", "features": []}')
     with pytest.raises(InputError, match=r'"exactpt" is missing; exactpt convert makes a scene'):
         load(path)
+
+
+def test_a_file_is_the_json_with_an_indentation():
+    properties = {"": [], "a": [{}, [None, True, 1.5]]}
+    bodies = [
+        Body("\u00e9", [("1/3", 0)], Translation([1, 2]), properties=properties),
+        Body("keys", keyframes=[(0, [(0, 9)]), (2, [(1, 9)])]),
+        Body("moves", [(Polynomial([20, 1]), 7)]),
+    ]
+    scene = Scene(bodies, time=(0, 1))
+    assert scene_bytes(scene) == (json.dumps(to_json(scene), indent=1) + "\n").encode()
+
+
+def test_doubles_are_written_exactly():
+    given = [(0.5, -0.0), (1e22, 3), (5e-324, 0.1)]
+    (body,) = to_json(Scene([Body("a", given)], time=(0, 1)))["bodies"]
+    assert body["vertices"] == [[str(Fraction(x)), str(Fraction(y))] for x, y in given]
