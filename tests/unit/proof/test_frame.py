@@ -57,7 +57,7 @@ def test_doubles_are_as_near_as_the_bound_of_tests_needs():
 
 @pytest.mark.parametrize("distance", [Fraction(0), Fraction(1, 7)])
 def test_bodies_are_separated_where_the_checker_finds_them_so(distance):
-    random, found, straight = Random(5), 0, 0
+    random, found = Random(5), 0
     for scene in scenes():
         paths, frame = frame_of(scene, distance)
         x, y = map(int, frame._origin)
@@ -75,17 +75,29 @@ def test_bodies_are_separated_where_the_checker_finds_them_so(distance):
             certain = frame.separates(plane, below, frame.bodies)
             assert not certain or all(sides[i] == {1} for i in sides.keys() - below)
             found += certain and 0 < len(below) < len(sides)
-            if frame.is_straight and 0 < len(below) < len(sides):
-                low, high = frame.body_extents(np.array([(n, m)]))
-                rows = np.array([i in below for i in frame.bodies])
-                ends = high[:, rows, 0].max(axis=1), low[:, ~rows, 0].min(axis=1)
-                between = frame.is_between(plane, *ends)
-                assert not between or all(sides[i] == {1} for i in sides.keys() - below)
-                straight += between
             one = {random.choice(frame.bodies)}
             assert not frame.separates(plane, one - below, one) or sides[min(one)] == {1}
     assert found > 3
-    assert straight > 1
+
+
+def test_extents_of_straight_paths_decide_as_their_points_do():
+    found = [0, 0]
+    for scene in scenes():
+        _, frame = frame_of(scene)
+        for n, m in [(1, 0), (0, 1), (1, -1), (3, 2)] if frame.is_straight else []:
+            low, high = frame.body_extents(np.array([(n, m)]))
+            middles = sorted({*(low / 2 + high / 2).mean(axis=0)[:, 0].tolist()})
+            for c in map(Fraction, np.convolve(middles, [0.5, 0.5], "valid").tolist()):
+                rows = (high[..., 0] < c).all(axis=0)
+                if rows.all() or not rows.any():
+                    continue
+                plane = Plane(n, m, c + n * frame._origin[0] + m * frame._origin[1], Fraction(0))
+                below = {i for i, is_below in zip(frame.bodies, rows, strict=True) if is_below}
+                ends = high[:, rows, 0].max(axis=1), low[:, ~rows, 0].min(axis=1)
+                certain = frame.separates(plane, below, frame.bodies)
+                assert frame.is_between(plane, *ends) == certain
+                found[certain] += 1
+    assert min(found) > 3
 
 
 def test_whole_bodies_are_cut_in_halves_by_lines_at_rest():
