@@ -12,7 +12,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.simple import orientation_of_doubles
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, of_double, show
-from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
+from exactpt.motion.motions import Motion, Pieces, Position, Rigid, SimpleMotion, Translation
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
@@ -170,9 +170,9 @@ class Course:
     def _check_continuity(self, motion: Pieces) -> None:
         for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
             if (
-                isinstance(before, Translation)
-                and isinstance(after, Translation)
-                and before._at(t) == after._at(t)
+                isinstance(before, (Translation, Rigid))
+                and isinstance(after, (Translation, Rigid))
+                and before._map_at(t) == after._map_at(t)  # noqa: SLF001
             ):
                 continue
             shape = self._shape.after(t)

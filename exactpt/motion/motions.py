@@ -118,6 +118,10 @@ class Translation(_Given):
         """Return the displacement at a time."""
         return self.x._at(t), self.y._at(t)
 
+    def _map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
+        """As `Rigid._map_at`."""
+        return QQ(1), QQ(0), *self._at(t)
+
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.x, self.y), {}
 
@@ -187,6 +191,14 @@ class Rigid(_Given):
             path = Polynomial([self._pivot[0]]) + self.x, Polynomial([self._pivot[1]]) + self.y
             self._turn = turn_of(self.half_turn, self._pivot, path, self._orientation)
         return self._turn.track(position)
+
+    def _map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
+        """Return the map at a time: cosine and sine, then where it takes the origin."""
+        (c, s), h, (px, py) = self._orientation, self.half_turn._at(t), self._pivot
+        w = 1 + h * h
+        cosine, sine = (c * (2 - w) - 2 * s * h) / w, (s * (2 - w) + 2 * c * h) / w
+        x, y = px - cosine * px + sine * py, py - sine * px - cosine * py
+        return cosine, sine, x + self.x._at(t), y + self.y._at(t)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         pivot = (str(self._pivot[0]), str(self._pivot[1]))

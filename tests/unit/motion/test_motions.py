@@ -14,7 +14,17 @@ from hypothesis import strategies as st
 from oracles import body_at, exact, motion_at
 from strategies import as_rational, body_data, fractions
 
-from exactpt import Affine, Body, InputError, Pieces, Polynomial, Rigid, Translation, in_local_time
+from exactpt import (
+    Affine,
+    Body,
+    InputError,
+    Pieces,
+    Polynomial,
+    Rigid,
+    Spin,
+    Translation,
+    in_local_time,
+)
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import REST
 from exactpt.scene.format import loads
@@ -203,6 +213,21 @@ def test_a_jump_of_one_vertex_alone_is_refused():
     message = jump(Pieces([(1, Rigid([0, 1])), (None, REST)]))
 
     assert "vertex 1 jumps at t = 1 from (0, 1) to (1, 0), by 1.41;" in message
+
+
+def test_pieces_of_one_rigid_map_are_continuous_without_their_trajectories(monkeypatch):
+    """A regression: pieces of a spin computed the trajectories of all vertices, and kept none."""
+    turned = Rigid([0, 1], pivot=(2, 1), x=[3], orientation=("3/5", "4/5"))
+    h, (px, py), c, s = Fraction(1, 2), (2, 1), Fraction(-7, 25), Fraction(24, 25)
+    held = Rigid(0, pivot=(px, py), x=3, orientation=(c, s))
+    moved = Rigid(0, x=[px - c * px + s * py + 3], y=[py - s * px - c * py], orientation=(c, s))
+    tracks = []
+    monkeypatch.setattr(Rigid, "track", lambda *given: tracks.append(given))
+    for after in (held, moved):
+        Body("box", [(0, 0), (1, 0), (0, 1)], Pieces([(h, turned), (None, after)]))
+    Body("box", [(0, 0), (1, 0)], Spin(1, time=(0, 40), pivot=(5, 3)))
+
+    assert tracks == []
 
 
 def test_a_jump_at_the_second_break_is_refused():
