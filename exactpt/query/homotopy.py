@@ -18,11 +18,12 @@ from exactpt.kernel.numbers import place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
+from exactpt.query.ray import On, Ray, Spot
 from exactpt.query.shortest import last_step
 from exactpt.query.sight import FreeTriangles
 from exactpt.query.sleeve import NOWHERE, Sleeves, bends, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, Spot, next_step
+from exactpt.query.walk import steps_of
 
 
 @final
@@ -98,18 +99,19 @@ class ShortestPaths:
         plane = self._plane
         if p == q:
             return []
-        ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
+        ray = Ray.between(plane, p, q)
         spot, _ = find(plane, p)
         here = tile
         crossed: list[HalfEdge] = []
+        steps = steps_of(plane, ray, spot)
         while True:
-            step = next_step(plane, ray, spot)
+            step = next(steps)
             there = step.through.handle if step.through.on is On.FACE else here
             if spot.on is On.EDGE and there not in (here, OUTSIDE):
                 h = HalfEdge(spot.handle)
                 crossed.append(h if plane.face[h] == here else twin(h))
                 here = there
-            if step.end is None or ray.parameter(step.end) >= 1:
+            if step.end is None or ray.beyond_goal(step.end) >= 0:
                 self._tile(q)  # raises if q is not free
                 return crossed
             place = place_of(plane, step.end)

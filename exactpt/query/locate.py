@@ -6,11 +6,12 @@ from fractions import Fraction
 
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import fraction
 from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import PLACES, Hit, Place
+from exactpt.query.ray import On, Ray, Spot
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, Spot, next_step
+from exactpt.query.walk import follow
 
 
 def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
@@ -27,15 +28,11 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
         return Spot(On.NODE, node), 0
     if plane.out[node] < 0:  # the only one
         return Spot(On.FACE, OUTSIDE), 0
-    ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
-    spot, crossed = Spot(On.NODE, node), 0
-    while True:
-        step = next_step(plane, ray, spot)
-        if step.end is None or (at := ray.parameter(step.end)) > 1:
-            return step.through, crossed
-        if at == 1:
-            return step.end, crossed
-        spot, crossed = step.end, crossed + 1
+    ray = Ray.between(plane, start, p)
+    step, passed = follow(plane, ray, Spot(On.NODE, node), through_bodies=True)
+    if step.end is None or ray.beyond_goal(step.end) > 0:
+        return step.through, passed
+    return step.end, passed
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
@@ -72,41 +69,36 @@ def codes_of(plane: Subdivision, spot: Spot) -> tuple[int, int, int]:
     return kind, body, -1 if feature is None else feature
 
 
-def cast(
-    plane: Subdivision, origin: Point, direction: Point, limit: QQ | None = None
-) -> Hit | None:
-    """Return the first point of a ray in a body; None if there is none up to ``limit``.
+def cast(plane: Subdivision, ray: Ray) -> Hit | None:
+    """Return the first point of a ray in a body; None if there is none, up to its goal.
 
     Every node belongs to a body, so a ray can only cross the interior of a diagonal without
-    hitting a body. ``limit`` is a parameter of the ray, or None.
+    hitting a body.
     """
-    spot, _ = find(plane, origin)
+    spot, _ = find(plane, ray.origin)
     place = place_of(plane, spot)
     if place.body is not None:
-        return Hit(place.body, place.vertex, place.edge, in_fractions(origin), Fraction(0), 0)
+        return Hit(place.body, place.vertex, place.edge, in_fractions(ray.origin), Fraction(0), 0)
     if not plane.points:
         return None
-    ray = Ray(plane, origin, direction)
     if OUTSIDE not in plane.cycles:
-        return _cast_at_point(plane, ray, limit)
-    crossed = 0
-    while True:
-        step = next_step(plane, ray, spot)
-        if step.end is None or (limit is not None and ray.parameter(step.end) > limit):
-            return None
-        spot = step.end
-        if spot.on is On.NODE or plane.boundary[spot.handle >> 1]:
-            place, at = place_of(plane, spot), ray.parameter(spot)
-            assert place.body is not None  # noqa: S101 - nodes and boundaries are of bodies
-            point = in_fractions(ray.point(at))
-            return Hit(place.body, place.vertex, place.edge, point, fraction(at), crossed)
-        crossed += 1
+        return _cast_at_point(plane, ray)
+    step, crossed = follow(plane, ray, spot, through_bodies=False)
+    if step.end is None or ray.beyond_goal(step.end) > 0:
+        return None
+    place = place_of(plane, step.end)
+    if place.body is None:  # the goal is on a diagonal
+        return None
+    at = ray.parameter(step.end)
+    return Hit(
+        place.body, place.vertex, place.edge, in_fractions(ray.point(at)), fraction(at), crossed
+    )
 
 
-def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None:
+def _cast_at_point(plane: Subdivision, ray: Ray) -> Hit | None:
     """`cast` in a scene that consists of a single point."""
     node = VertexId(0)
     at = ray.reaches(node)
-    if ray.side(node) != 0 or at < 0 or (limit is not None and at > limit):
+    if ray.side(node) != 0 or at < 0 or (ray.goal is not None and at > 1):
         return None
     return Hit(plane.names[0], 0, None, in_fractions(plane.points[0]), fraction(at), 0)

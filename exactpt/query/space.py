@@ -35,6 +35,7 @@ from exactpt.query.answers import Hit, Located, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, codes_of, find, place_of
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
+from exactpt.query.ray import Ray
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.tiling.start import relative_hulls
 from exactpt.tiling.tiling import Tiling
@@ -128,14 +129,14 @@ class FreeSpace:
         start, along = _point(origin), _point(direction)
         if not any(along):
             raise InputError("a ray needs a direction that is not (0, 0)")
-        return cast(self._plane, start, along)
+        return cast(self._plane, Ray(self._plane, start, along))
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
         """Return True if no body intersects the closed segment from p to q."""
         start, end = _point(p), _point(q)
         if start == end:
             return self.locate(start).is_free
-        return cast(self._plane, start, (end[0] - start[0], end[1] - start[1]), QQ(1)) is None
+        return cast(self._plane, Ray.between(self._plane, start, end)) is None
 
     # Paths
 

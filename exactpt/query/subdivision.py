@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from functools import cmp_to_key
 from itertools import pairwise
-from typing import Final, final
+from typing import Final, TypeAlias, final
 
 from mypy_extensions import i64
 
@@ -26,6 +26,9 @@ from exactpt.query.nodes import Nodes
 
 OUTSIDE: Final = -1
 """The face outside the convex hull."""
+
+Corner: TypeAlias = tuple[float, float, HalfEdge]
+"""A node on the boundary of a face, in doubles (`Nodes`), and the half-edge that ends at it."""
 
 
 def cross(u: Point, v: Point) -> QQ:
@@ -84,11 +87,27 @@ class Subdivision:
         self.face: list[int] = [OUTSIDE] * len(self.map.origin)
         self.cycles: dict[int, list[HalfEdge]] = {}
         self._name_faces(bodies)
+        self._outlines: dict[int, list[list[Corner]]] = {}
 
     def direction(self, h: HalfEdge) -> Point:
         """Return the vector from the origin of a half-edge to its target."""
         (a, b), (c, d) = self.points[self.map.origin[h]], self.points[self.map.origin[h ^ 1]]
         return c - a, d - b
+
+    def place(self, h: HalfEdge) -> tuple[float, float]:
+        """Return the origin of a half-edge in doubles (`Nodes`)."""
+        node = self.map.origin[h]
+        return self.nodes.xs[node], self.nodes.ys[node]
+
+    def outline(self, face: int) -> list[list[Corner]]:
+        """Return the corners of each cycle around a face, in order, the last one also first."""
+        known = self._outlines.get(face)
+        if known is None:
+            cycles = [self.map.face(h) for h in self.cycles[face]]
+            known = self._outlines[face] = [
+                [(*self.place(twin(h)), h) for h in (cycle[-1], *cycle)] for cycle in cycles
+            ]
+        return known
 
     def edge_number(self, h: HalfEdge) -> int:
         """Return the number of the edge of a body that a half-edge belongs to."""

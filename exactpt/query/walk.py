@@ -1,46 +1,20 @@
-"""A ray through a subdivision, from face to face, in exact arithmetic.
+"""A ray through a subdivision, from face to face.
 
 A point of the ray is in a face, on an edge or at a node, and each of the three cases determines
 how the ray continues. Rays through vertices, along edges and along straight chains are thus no
-exceptions; every decision is the sign of a rational, which doubles decide within a bound.
+exceptions; every decision is the sign of a rational, which doubles decide within a bound. A face
+of which they leave one node or one order open is decided by exact arithmetic.
 """
 
 from __future__ import annotations
 
-import math
-from enum import Enum
-from typing import Final, NamedTuple, final
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from mypy_extensions import i64
-
-from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, nearest_float, sign
-from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.planar.halfedge import twin
+from exactpt.query.ray import On, Ray, Spot
 from exactpt.query.subdivision import OUTSIDE, Subdivision, cross
-
-_LARGEST: Final = 2.0**500
-
-
-class On(Enum):
-    """The type of cell that contains a point."""
-
-    FACE = "face"
-    EDGE = "edge"
-    NODE = "node"
-
-
-class Spot(NamedTuple):
-    """The cell of the subdivision that contains a point.
-
-    Attributes:
-        on: the interior of a face, the interior of an edge, or a node.
-        handle: the face; a half-edge of the edge; or the node.
-    """
-
-    on: On
-    handle: i64
 
 
 class RayStep(NamedTuple):
@@ -49,102 +23,92 @@ class RayStep(NamedTuple):
     Attributes:
         through: the face, or the half-edge in the direction of the ray, that contains the
             interior of the step.
-        end: the edge or the node that contains its end; None if the step is unbounded.
+        end: the edge or the node that contains its end; None if the step is unbounded. Of an
+            edge, the half-edge with the face on its left.
     """
 
     through: Spot
     end: Spot | None
 
 
-@final
-class Ray:
-    """The points origin + s * direction, s >= 0; the direction is not (0, 0)."""
-
-    __slots__ = (
-        "_near",
-        "_nodes",
-        "_norm",
-        "_off",
-        "_plane",
-        "_points",
-        "direction",
-        "origin",
-        "sides",
-    )
-
-    def __init__(self, plane: Subdivision, origin: Point, direction: Point) -> None:
-        self.origin = origin
-        self.direction = direction
-        self._norm = direction[0] * direction[0] + direction[1] * direction[1]
-        self._plane, self._points = plane, plane.points
-        self.sides: dict[VertexId, int] = {}
-        self._nodes = nodes = plane.nodes
-        ox, oy = nodes.of(origin)
-        dx, dy = nearest_float(direction[0]), nearest_float(direction[1])
-        self._near = ox, oy, dx, dy
-        size = max(nodes.size, abs(ox), abs(oy))
-        in_range = size < _LARGEST and abs(dx) < _LARGEST and abs(dy) < _LARGEST
-        self._off = 5.0 * U * size * (abs(dx) + abs(dy)) if in_range else math.inf
-
-    def side(self, node: VertexId) -> int:
-        """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
-        known = self.sides.get(node)
-        if known is None:
-            known = self.sides[node] = self._filtered_side(node) or self._exact_side(node)
-        return known
-
-    def _filtered_side(self, node: VertexId) -> int:
-        """Return the side of a node by doubles; 0 if they do not decide it.
-
-        Let M be the largest size of a coordinate of a node or of the origin, as doubles. Each is
-        off by at most U M (1 + 2U), as a nearest double, and a difference of two, of size at most
-        2 M, by U of it more: by less than 5 U M. The direction is off by U of itself. So a product
-        p of a coordinate of the direction d and such a difference is off by less than
-        5 U M |d| + 4 U |p|, its own rounding included, and the difference of two products by
-        U (|p| + |q|) more. SLACK covers terms of second order, TINY underflow, since all numbers
-        are below 2^500.
-        """
-        ox, oy, dx, dy = self._near
-        p, q = dx * (self._nodes.ys[node] - oy), dy * (self._nodes.xs[node] - ox)
-        bound = (self._off + 5.0 * U * (abs(p) + abs(q))) * SLACK + TINY
-        return 1 if p - q > bound else -1 if p - q < -bound else 0
-
-    def _exact_side(self, node: VertexId) -> int:
-        (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
-        return sign(dx * (y - oy) - dy * (x - ox))
-
-    def parameter(self, spot: Spot) -> QQ:
-        """Return the parameter at a node of the ray, or an edge not parallel to it; 0 in a face."""
-        if spot.on is On.FACE:
-            return QQ(0)
-        if spot.on is On.NODE:
-            return self.reaches(VertexId(spot.handle))
-        origin = self._plane.map.origin
-        return self.crosses(origin[spot.handle], origin[spot.handle ^ 1])
-
-    def reaches(self, node: VertexId) -> QQ:
-        """Return the parameter of a node on the line of the ray."""
-        (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
-        return ((x - ox) * dx + (y - oy) * dy) / self._norm
-
-    def crosses(self, u: VertexId, v: VertexId) -> QQ:
-        """Return the parameter at which the line of the ray crosses the edge from u to v."""
-        a, b = self._points[u], self._points[v]
-        along = b[0] - a[0], b[1] - a[1]
-        return cross((a[0] - self.origin[0], a[1] - self.origin[1]), along) / cross(
-            self.direction, along
-        )
-
-    def point(self, at: QQ) -> Point:
-        """Return the point with parameter ``at``."""
-        return (
-            self.origin[0] + at * self.direction[0],
-            self.origin[1] + at * self.direction[1],
-        )
+def steps_of(plane: Subdivision, ray: Ray, spot: Spot) -> Iterator[RayStep]:
+    """Yield the steps of a ray from a spot of it on; in a face, from its origin on."""
+    step = _step_from(plane, ray, spot)
+    while True:
+        yield step
+        end = step.end
+        if end is None:
+            return
+        if end.on is On.EDGE:
+            h = twin(HalfEdge(end.handle))
+            step = _through_face(plane, ray, plane.face[h], end, h)
+        else:
+            step = _step_from(plane, ray, end)
 
 
-def next_step(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
-    """Return the step of a ray that starts at a spot of it; in a face, at its origin."""
+def follow(
+    plane: Subdivision, ray: Ray, spot: Spot, *, through_bodies: bool
+) -> tuple[RayStep, int]:
+    """Return the last step of a ray, and the number of edges and nodes passed before.
+
+    Its end is at or beyond the goal of the ray, or in a body, unless the ray goes through bodies;
+    or it has none.
+    """
+    step, passed = _step_from(plane, ray, spot), 0
+    while (end := step.end) is not None and ray.beyond_goal(end) < 0:
+        if end.on is On.NODE:
+            if not through_bodies:
+                break
+            step = _step_from(plane, ray, end)
+        elif plane.boundary[end.handle >> 1] and not through_bodies:
+            break
+        else:
+            h, more, last = _across_faces(
+                plane, ray, twin(HalfEdge(end.handle)), through_bodies=through_bodies
+            )
+            passed += more
+            if last != NO_HALF_EDGE:
+                step = RayStep(Spot(On.FACE, plane.face[h]), Spot(On.EDGE, last))
+            else:
+                step = _through_face(plane, ray, plane.face[h], Spot(On.EDGE, h), h)
+        passed += 1
+    return step, passed
+
+
+def _across_faces(
+    plane: Subdivision, ray: Ray, entry: HalfEdge, *, through_bodies: bool
+) -> tuple[HalfEdge, int, HalfEdge]:
+    """Follow a ray from edge to edge, as long as doubles decide that a face has a single end.
+
+    Returns:
+        The entry edge of the last face; the number of edges crossed after that of the first one;
+        the edge at which `follow` ends; -1 if doubles do not decide the step through the face.
+    """
+    (dx, dy, c), off, crossed = ray.line, ray.off, 0
+    while True:
+        face = plane.face[entry]
+        outline = plane.outline(face)
+        if face == OUTSIDE or len(outline) > 1:
+            return entry, crossed, NO_HALF_EDGE
+        end, left = NO_HALF_EDGE, True
+        for x, y, h in outline[0]:
+            value = dx * y - dy * x - c
+            if value > off:
+                if not left:
+                    if end != NO_HALF_EDGE:
+                        return entry, crossed, NO_HALF_EDGE
+                    end, left = h, True
+            elif value < -off:
+                left = False
+            else:
+                return entry, crossed, NO_HALF_EDGE
+        if (plane.boundary[end >> 1] and not through_bodies) or ray.beyond_at_edge(end) >= 0:
+            return entry, crossed, end
+        entry, crossed = HalfEdge(end ^ 1), crossed + 1
+
+
+def _step_from(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
+    """Return the step that starts at a spot."""
     if spot.on is On.FACE:
         return _through_face(plane, ray, spot.handle, spot)
     if spot.on is On.EDGE:
@@ -182,12 +146,14 @@ def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, boo
     for h, turn in zip(star, turns, strict=True):
         if turn == 0 and _ahead(plane, ray, h):
             return h, True
+    for i, turn in enumerate(turns):
+        # The direction is left of one half-edge and right of the next one.
+        if turn < 0 and turns[i - 1] > 0:
+            return star[i - 1], False
     for i, h in enumerate(star):
-        # The direction is left of h and right of g, or the sector is wider than pi.
+        # Or it is so of one of them, in a sector wider than pi.
         g, after = star[(i + 1) % len(star)], turns[(i + 1) % len(star)]
-        wide = len(star) == 1 or cross(plane.direction(h), plane.direction(g)) <= 0
-        inside = (turns[i] > 0 or after < 0) if wide else (turns[i] > 0 and after < 0)
-        if inside or len(star) == 1:
+        if (turns[i] > 0 or after < 0) and cross(plane.direction(h), plane.direction(g)) <= 0:
             return h, False
     return star[0], False
 
@@ -197,23 +163,62 @@ def _through_face(
 ) -> RayStep:
     """Return the step through a face from a spot on, perhaps from its entry edge.
 
-    From the interior of an edge a ray enters a bounded face, and leaves it: there is one end at
-    least, and parameters are compared only if there are several.
+    The line of the ray leaves the face across edges whose origin is on its right. If there is one,
+    and the face is bounded, it is the end; otherwise places along the ray are compared.
     """
-    following, origin, sides = plane.map.following, plane.map.origin, ray.sides
+    (dx, dy, c), off = ray.line, ray.off
+    starts_here = since.on is On.NODE and ray.origin == plane.points[since.handle]
+    ends: list[HalfEdge] = []
+    for corners in plane.outline(face):
+        side = 0
+        for x, y, h in corners:
+            value = dx * y - dy * x - c
+            if value > off:
+                if side < 0:
+                    ends.append(h)
+                side = 1
+            elif value < -off:
+                side = -1
+            elif starts_here and plane.map.origin[h ^ 1] == since.handle:
+                side = 0
+            else:
+                return _exactly_through_face(plane, ray, face, since, entry)
+    if len(ends) > 1 or (ends and face == OUTSIDE):
+        first = _first_ahead(ray, ends, entry)
+        if first is None:
+            return _exactly_through_face(plane, ray, face, since, entry)
+        ends = first
+    return RayStep(Spot(On.FACE, face), Spot(On.EDGE, ends[0]) if ends else None)
+
+
+def _first_ahead(ray: Ray, ends: Sequence[HalfEdge], entry: HalfEdge) -> list[HalfEdge] | None:
+    """Return the first of some edges that the ray crosses, or none; None if that is not certain.
+
+    It starts at the entry edge, or at its origin if there is none.
+    """
+    low, high = (0.0, 0.0) if entry == NO_HALF_EDGE else ray.place_of(entry)
+    bounds = [(*ray.place_of(h), h) for h in ends]
+    ahead = sorted((last, first, h) for first, last, h in bounds if first > high)
+    if len(ahead) + sum(last < low for _, last, _ in bounds) < len(bounds) or any(
+        not ahead[0][0] < first for _, first, _ in ahead[1:]
+    ):
+        return None
+    return [h for *_, h in ahead[:1]]
+
+
+def _exactly_through_face(
+    plane: Subdivision, ray: Ray, face: int, since: Spot, entry: HalfEdge
+) -> RayStep:
+    """Return the same as `_through_face`, by exact parameters of the nodes and edges of a face."""
+    origin = plane.map.origin
     ends: list[Spot] = []
-    for first in plane.cycles[face]:
-        h, s = first, ray.side(origin[first])
-        while True:
-            v = origin[h ^ 1]
-            t = sides[v] if v in sides else ray.side(v)
+    for corners in plane.outline(face):
+        for _, _, h in corners[1:]:
+            s, t = ray.side(origin[h]), ray.side(origin[h ^ 1])
             if s == 0:
                 ends.append(Spot(On.NODE, origin[h]))
             elif s * t < 0 and h != entry:
                 ends.append(Spot(On.EDGE, h))
-            h, s = following[h], t
-            if h == first:
-                break
     through = Spot(On.FACE, face)
     if len(ends) == 1 and entry != NO_HALF_EDGE and face != OUTSIDE:
         return RayStep(through, ends[0])

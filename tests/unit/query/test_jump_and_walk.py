@@ -6,11 +6,13 @@ from random import Random
 import numpy as np
 import pytest
 
-from exactpt import FreeSpace, InputError, Scene, Simulation
+from exactpt import Body, FreeSpace, InputError, Scene, Simulation
+from exactpt.indices import NO_HALF_EDGE, HalfEdge
 from exactpt.pairs.start import initial_touches
+from exactpt.query import ray, walk
 from exactpt.query.answers import PLACES
 from exactpt.query.nodes import Nodes
-from exactpt.query.walk import Ray
+from exactpt.query.ray import On, Ray, Spot
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling.start import start_tiling
 
@@ -40,6 +42,16 @@ def points_around(scene, random, count):
     return found
 
 
+def thirds(scene, offset):
+    """Return the free space of a scene scaled by 1/3, so that few numbers are doubles; vertices."""
+    bodies = [
+        Body(body.name, [(x / 3 + offset, y / 3 - offset) for x, y in body.at(scene.start)])
+        for body in scene.bodies
+    ]
+    places = [place for body in bodies for place in body.at(0)]
+    return space_of(Scene(bodies)), places
+
+
 def located(space, points):
     return [
         (p.kind, p.body, p.vertex, p.edge, p.tile, p.diagonal)
@@ -56,33 +68,81 @@ def test_locations_depend_neither_on_the_first_node_nor_on_doubles(monkeypatch, 
     expected = located(space, points)
     rays = [space.ray_cast(p, (3, -1)) for p in points]
 
-    monkeypatch.setattr(Ray, "_filtered_side", lambda *_: 0)
+    monkeypatch.setattr(ray, "_LARGEST", 0.0)  # no double decides
     assert located(space, points) == expected
     assert [space.ray_cast(p, (3, -1)) for p in points] == rays
     monkeypatch.setattr(Nodes, "near", lambda *_: 0)
     assert located(space, points) == expected
 
 
-def test_filter_decides_no_side_that_it_may_not(monkeypatch):
+def test_doubles_decide_no_step_that_they_may_not(monkeypatch):
     """Points that are nearly on lines through nodes, near the origin and far from it."""
-    random, decided = Random("sides"), []
-    exact, filtered = Ray._exact_side, Ray._filtered_side
+    random, decided, ends = Random("sides"), [], []
+    through, exactly, beyond = walk._through_face, walk._exactly_through_face, Ray.beyond_at_edge
 
-    def both(self, node):
-        found = filtered(self, node)
-        decided.append(found != 0)
-        assert found in (0, exact(self, node))
+    def both(plane, of, face, since, entry=NO_HALF_EDGE):
+        found = through(plane, of, face, since, entry)
+        assert found == exactly(plane, of, face, since, entry)
+        decided.append(1)
         return found
 
-    monkeypatch.setattr(Ray, "_filtered_side", both)
-    for offset in (0, 2**30, Fraction(10**20, 3)):
-        scene = generate("convex", 2)
-        moved = [body.with_motion(type(body.motion)([offset], [-offset])) for body in scene.bodies]
-        space = space_of(Scene(moved, time=(0, 1)))
-        for x, y in points_around(Scene(moved, time=(0, 1)), random, 40):
-            space.locate((x, y))
-            space.ray_cast((x, y), (random.random() - 0.5, 2.0**-60))
-    assert 0.5 < sum(decided) / len(decided) < 1
+    def beyond_in_both_ways(self, h):
+        found = beyond(self, h)
+        if self.goal is not None:
+            at = self.parameter(Spot(On.EDGE, h))
+            ends.append(at > 1)
+            assert found == (at > 1) - (at < 1)
+        return found
+
+    def across_one_by_one(plane, of, entry, *, through_bodies):
+        last, passed, end = across(plane, of, entry, through_bodies=through_bodies)
+        h = entry
+        for _ in range(passed):
+            step = exactly(plane, of, plane.face[h], Spot(On.EDGE, h), h)
+            h = HalfEdge(step.end.handle ^ 1)
+        assert h == last
+        step = exactly(plane, of, plane.face[h], Spot(On.EDGE, h), h)
+        assert end in (NO_HALF_EDGE, step.end and step.end.handle)
+        return last, passed, end
+
+    across = walk._across_faces
+    monkeypatch.setattr(walk, "_through_face", both)
+    monkeypatch.setattr(walk, "_across_faces", across_one_by_one)
+    monkeypatch.setattr(Ray, "beyond_at_edge", beyond_in_both_ways)
+    for family, offset in (("convex", 0), ("stars", 2**30), ("combs", Fraction(10**20, 3))):
+        space, vertices = thirds(generate(family, 2), offset)
+        for _ in range(40):
+            edge, b = random.choice(space.snapshot.edges), random.choice(vertices)
+            a, other = (space.snapshot.nodes[node] for node in (edge.u, edge.v))
+            share, beside = Fraction(random.randint(0, 9), 7), random.choice([0, 0, 2.0**-51])
+            near = Fraction(beside * random.random())
+            a, other = (a.x, a.y), (other.x, other.y)
+            p = tuple(x + share * (y - x) + near for x, y in zip(a, other, strict=True))
+            along = tuple(y - x for x, y in zip(p, b, strict=True))
+            space.locate(p)
+            if any(along):
+                space.ray_cast(p, along)
+            space.is_free(p, b)
+    assert len(decided) > 200
+    assert 0 < sum(ends) < len(ends)
+
+
+def test_rays_take_no_rational_arithmetic_before_they_hit(monkeypatch):
+    """Each face was decided by exact sides, and each end by an exact parameter."""
+    random, exact = Random("few"), []
+    space = Simulation(generate("convex", 5)).space()
+    exactly, parameter = walk._exactly_through_face, Ray.parameter
+    monkeypatch.setattr(walk, "_exactly_through_face", lambda *a: exact.append(1) or exactly(*a))
+    monkeypatch.setattr(Ray, "parameter", lambda *a: exact.append(0) or parameter(*a))
+    rays = [
+        ((random.uniform(-5, 9), random.uniform(-5, 9)), (1, random.random())) for _ in range(50)
+    ]
+
+    hits = [space.ray_cast(origin, direction) for origin, direction in rays]
+
+    assert sum(hit is not None and hit.crossed for hit in hits) > 0
+    assert sum(exact) == 0
+    assert len(exact) <= sum(hit is not None for hit in hits)
 
 
 @pytest.mark.parametrize("family", ["convex", "lakes", "stars", "grid_points", "frames"])

@@ -1,0 +1,184 @@
+"""A ray in a subdivision: on which side of it nodes are, and where it crosses edges.
+
+Doubles are those of `exactpt.query.nodes`. Let M be the largest size of a coordinate of a node or
+of the origin, as doubles, and S = |dx| + |dy| that of the direction. A nearest double is off by U
+of itself.
+
+The side of a node is the sign of v = (dx y - dy x) - c, where c = dx oy - dy ox. A product is off
+by 3 U of its size: its two factors and its own rounding; so each of the two differences of products
+is off by 3 U M S, and by U M S more for its rounding; the difference of both, of size 2 M S, by
+2 U M S. In all, v is off by less than B = 10 U M S.
+
+The place along the ray at which it crosses the edge from a to b, where v has the values p and q of
+opposite signs, is t = dx (x - ox) + dy (y - oy) with x = ax + w (bx - ax), w = p / (p - q): the
+parameter times the square of the length of the direction. A partial derivative of w is at most
+1 / |p - q| in all, so w is off by B / g, g = |p - q| - 2 B, and by 3 U for its rounding. With the
+errors of the coordinates (U M) and of the operations on numbers of size 2 M, x - ox is off by less
+than (B / g) |bx - ax| + 20 U M. So t, with 8 U M S for its own operations and the direction, is off
+by less than S (B / g) (|bx - ax| + |by - ay|) + 28 U M S, of which the last term is below 3 B.
+
+A goal is to the left of the edge from a to b if (bx - ax) (gy - ay) - (by - ay) (gx - ax) > 0. Let
+M be at least the size of its coordinates, too. A difference is off by less than 5 U M, a product of
+two of size 2 M by 20 U M^2 and its rounding by 4 U M^2, and their difference by 8 U M^2: in all,
+less than 64 U M^2.
+
+SLACK covers terms of second order, TINY underflow, since all numbers are below 2^400.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from typing import Final, NamedTuple, final
+
+from mypy_extensions import i64
+
+from exactpt.geometry.predicates import Point, orientation
+from exactpt.indices import HalfEdge, VertexId
+from exactpt.kernel.numbers import QQ, nearest_float, sign
+from exactpt.kernel.rounding import SLACK, TINY, U
+from exactpt.planar.halfedge import twin
+from exactpt.query.subdivision import Subdivision, cross
+
+_LARGEST: Final = 2.0**400
+
+
+class On(Enum):
+    """The type of cell that contains a point."""
+
+    FACE = "face"
+    EDGE = "edge"
+    NODE = "node"
+
+
+class Spot(NamedTuple):
+    """The cell of the subdivision that contains a point.
+
+    Attributes:
+        on: the interior of a face, the interior of an edge, or a node.
+        handle: the face; a half-edge of the edge; or the node.
+    """
+
+    on: On
+    handle: i64
+
+
+@final
+class Ray:
+    """The points origin + s * direction, s >= 0; the direction is not (0, 0).
+
+    Attributes:
+        origin: the start.
+        direction: the direction.
+        goal: the point with parameter 1; None if it does not matter.
+        line: numbers dx, dy, c; the node (x, y) is to the left of the ray if dx y - dy x - c > 0.
+        off: a bound on the errors of these numbers, for all nodes.
+    """
+
+    __slots__ = (
+        "_goal", "_goal_off", "_near", "_norm", "_plane", "_sides", "direction", "goal", "line",
+        "off", "origin",
+    )  # fmt: skip
+
+    def __init__(
+        self, plane: Subdivision, origin: Point, direction: Point, goal: Point | None = None
+    ) -> None:
+        self.origin = origin
+        self.direction = direction
+        self.goal = goal
+        self._norm = direction[0] * direction[0] + direction[1] * direction[1]
+        self._plane = plane
+        self._sides: dict[VertexId, int] = {}
+        ox, oy = plane.nodes.of(origin)
+        dx, dy = nearest_float(direction[0]), nearest_float(direction[1])
+        self._near = ox, oy
+        self.line = dx, dy, dx * oy - dy * ox
+        size, length = max(plane.nodes.size, abs(ox), abs(oy)), abs(dx) + abs(dy)
+        in_range = size < _LARGEST and length < _LARGEST
+        self.off = 10.0 * U * size * length * SLACK + TINY if in_range else math.inf
+        self._goal = gx, gy = (ox, oy) if goal is None else plane.nodes.of(goal)
+        size = max(size, abs(gx), abs(gy))
+        self._goal_off = 64.0 * U * size * size * SLACK + TINY if size < _LARGEST else math.inf
+
+    @classmethod
+    def between(cls, plane: Subdivision, start: Point, goal: Point) -> Ray:
+        """Return the ray from a point through its goal."""
+        return cls(plane, start, (goal[0] - start[0], goal[1] - start[1]), goal)
+
+    def place_of(self, h: HalfEdge) -> tuple[float, float]:
+        """Return bounds of t, a positive multiple of the parameter at which it crosses an edge.
+
+        Doubles decide on which side the ends of the edge are.
+        """
+        (ax, ay), (bx, by) = self._plane.place(h), self._plane.place(twin(h))
+        (dx, dy, c), (ox, oy), off = self.line, self._near, self.off
+        p, q = dx * ay - dy * ax - c, dx * by - dy * bx - c
+        ux, uy, w = bx - ax, by - ay, p / (p - q)
+        t = dx * (ax + w * ux - ox) + dy * (ay + w * uy - oy)
+        share = (abs(dx) + abs(dy)) * (abs(ux) + abs(uy)) * off / (abs(p - q) - 2.0 * off)
+        error = (share + 3.0 * off) * SLACK + TINY
+        return t - error, t + error
+
+    def side(self, node: VertexId) -> int:
+        """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
+        known = self._sides.get(node)
+        if known is None:
+            (dx, dy, c), off, nodes = self.line, self.off, self._plane.nodes
+            value = dx * nodes.ys[node] - dy * nodes.xs[node] - c
+            known = 1 if value > off else -1 if value < -off else self._exact_side(node)
+            self._sides[node] = known
+        return known
+
+    def _exact_side(self, node: VertexId) -> int:
+        (x, y), (ox, oy), (dx, dy) = self._plane.points[node], self.origin, self.direction
+        return sign(dx * (y - oy) - dy * (x - ox))
+
+    def beyond_goal(self, end: Spot) -> int:
+        """Return 1, 0 or -1 if the end of a step is beyond, at or before the goal, if there is one.
+
+        Of an edge, see `beyond_at_edge`.
+        """
+        if end.on is On.EDGE:
+            return self.beyond_at_edge(HalfEdge(end.handle))
+        return -1 if self.goal is None else sign(self.parameter(end) - 1)
+
+    def beyond_at_edge(self, h: HalfEdge) -> int:
+        """Return the same for an edge that the ray crosses, from its left side to its right one."""
+        if self.goal is None:
+            return -1
+        origin, nodes = self._plane.map.origin, self._plane.nodes
+        u, v, (gx, gy) = origin[h], origin[h ^ 1], self._goal
+        ax, ay = nodes.xs[u], nodes.ys[u]
+        value = (nodes.xs[v] - ax) * (gy - ay) - (nodes.ys[v] - ay) * (gx - ax)
+        if abs(value) > self._goal_off:
+            return 1 if value > 0.0 else -1
+        return orientation(self._plane.points[u], self._plane.points[v], self.goal)
+
+    def parameter(self, spot: Spot) -> QQ:
+        """Return the parameter at a node of the ray, or an edge not parallel to it; 0 in a face."""
+        if spot.on is On.FACE:
+            return QQ(0)
+        if spot.on is On.NODE:
+            return self.reaches(VertexId(spot.handle))
+        origin = self._plane.map.origin
+        return self.crosses(origin[spot.handle], origin[spot.handle ^ 1])
+
+    def reaches(self, node: VertexId) -> QQ:
+        """Return the parameter of a node on the line of the ray."""
+        (x, y), (ox, oy), (dx, dy) = self._plane.points[node], self.origin, self.direction
+        return ((x - ox) * dx + (y - oy) * dy) / self._norm
+
+    def crosses(self, u: VertexId, v: VertexId) -> QQ:
+        """Return the parameter at which the line of the ray crosses the edge from u to v."""
+        a, b = self._plane.points[u], self._plane.points[v]
+        along = b[0] - a[0], b[1] - a[1]
+        return cross((a[0] - self.origin[0], a[1] - self.origin[1]), along) / cross(
+            self.direction, along
+        )
+
+    def point(self, at: QQ) -> Point:
+        """Return the point with parameter ``at``."""
+        return (
+            self.origin[0] + at * self.direction[0],
+            self.origin[1] + at * self.direction[1],
+        )
