@@ -213,6 +213,7 @@ def _methods(steps: Sequence[int]) -> list[Method]:
         *(others.pymunk(n) for n in steps),
         *(others.tight_inclusion(tolerance, 32) for tolerance in (1e-3, 1e-6)),
         *(others.additive(rescaling, 32) for rescaling in (0.9, 0.9999)),
+        others.FCL,
     ]
 
 

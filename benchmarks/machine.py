@@ -13,7 +13,7 @@ from typing import Final
 from benchmarks.peers import PEERS
 from exactpt.kernel import filters
 
-__all__ = ["machine"]
+__all__ = ["is_compiled", "machine"]
 
 OWN: Final = ("exactpt", "gmpy2", "numpy")
 
@@ -23,10 +23,15 @@ def machine() -> list[str]:
     versions = [f"{name} {_version(name)}" for name in (*OWN, *PEERS)]
     return [
         f"{_processor()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
-        f"exactpt {'plain Python' if filters.__file__.endswith('.py') else 'compiled by mypyc'}",
+        f"exactpt {'compiled by mypyc' if is_compiled() else 'plain Python'}",
         f"measured on {datetime.now(UTC):%Y-%m-%d} at {_commit()}",
         f"Python {platform.python_version()}, " + ", ".join(versions),
     ]
+
+
+def is_compiled() -> bool:
+    """Whether the hot modules of exactpt are compiled."""
+    return not filters.__file__.endswith(".py")
 
 
 def _version(package: str) -> str:

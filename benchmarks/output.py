@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias, final
 
-from benchmarks.peers import is_installed
+from benchmarks.peers import ENGINES, is_installed
 from benchmarks.plots import Series, draw_lines, draw_shares
 from exactpt.files import write_atomically
 
@@ -52,7 +52,8 @@ class Output:
             return True
         if package not in self._skipped:
             self._skipped.add(package)
-            self.say(f"skipped: {package} is not installed (pip install 'exactpt[bench]')")
+            extra = "engines" if package in ENGINES else "bench"
+            self.say(f"skipped: {package} is not installed (pip install 'exactpt[{extra}]')")
         return False
 
     def table(self, name: str, rows: Sequence[Row], tell: Sequence[Row] = ()) -> None:

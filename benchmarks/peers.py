@@ -6,19 +6,23 @@ import warnings
 from importlib import import_module
 from typing import Final
 
-__all__ = ["PEERS", "is_installed"]
+__all__ = ["ENGINES", "PEERS", "is_installed"]
 
 PEERS: Final = {
     "shapely": "shapely",
     "pymunk": "pymunk",
     "ipctk": "ipctk",
     "box2d": "Box2D",
+    "python-fcl": "fcl",
     "python-flint": "flint",
     "sympy": "sympy",
     "mpmath": "mpmath",
     "matplotlib": "matplotlib",
 }
 """The module of each package."""
+
+ENGINES: Final = {"python-fcl"}
+"""Those in the extra `engines`; the others are in `bench`."""
 
 
 def is_installed(package: str) -> bool:

@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from benchmarks.methods.method import Answer, Method, UnsuitableScene
+from benchmarks.methods.own import in_build
 from exactpt import Body, Scene, Translation, first_contact
 from exactpt.arrays import first_contacts
 from exactpt.kernel.numbers import QQ, nearest_float
@@ -89,8 +90,8 @@ def _double(value: QQ) -> float:
     return near
 
 
-ARRAYS: Final = Method("exactpt", "arrays", _prepare)
+ARRAYS: Final = Method("exactpt", in_build("arrays"), _prepare)
 """The first contact among the answers for all pairs."""
 
-FROM_ARRAYS: Final = Method("exactpt", "from arrays", _prepare_scene)
+FROM_ARRAYS: Final = Method("exactpt", in_build("from arrays"), _prepare_scene)
 """The first contact of a scene in arrays, which is built in the same time."""

@@ -16,10 +16,10 @@ import numpy as np
 from benchmarks.methods.method import Answer, Method, UnsuitableScene
 from benchmarks.methods.moving import Floats, Moving, Shape
 from benchmarks.peers import is_installed
-from benchmarks.programs import with_box2d, with_ipctk, with_pymunk, with_shapely
+from benchmarks.programs import with_box2d, with_fcl, with_ipctk, with_pymunk, with_shapely
 from exactpt.scene.scene import Scene
 
-__all__ = ["BOX2D", "additive", "pymunk", "shapely", "tight_inclusion"]
+__all__ = ["BOX2D", "FCL", "additive", "pymunk", "shapely", "tight_inclusion"]
 
 Vertex: TypeAlias = tuple[float, float]
 
@@ -62,6 +62,39 @@ BOX2D: Final = Method("Box2D", "time of impact", _box2d, "box2d")
 """Convex polygons alone (of others Box2D takes the convex hull), in single precision.
 
 It stops at a distance of about its slop, 1/200.
+"""
+
+
+def _fcl(scene: Scene) -> Callable[[], Answer]:
+    moving = Moving(scene)
+    bodies = [_asked(moving, shape) for shape in moving.shapes]
+    if moving.degree > 1:
+        raise UnsuitableScene("other motions than linear ones")
+    for shape, body in zip(moving.shapes, bodies, strict=True):
+        if shape.deforms or not shape.closed or not _is_convex(body["vertices"]):
+            raise UnsuitableScene("other bodies than convex polygons that translate")
+    firsts, span = [shape.first for shape in moving.shapes], moving.end - moving.start
+    ends = np.stack([moving.at(moving.start), moving.at(moving.end)])
+    low = np.minimum.reduceat(ends.min(axis=0), firsts)
+    high = np.maximum.reduceat(ends.max(axis=0), firsts)
+
+    def ask() -> Answer:
+        near = (low[:, None] <= high[None]).all(axis=2)
+        times = [
+            with_fcl.answer({"a": bodies[i], "b": bodies[j], "span": span}, _CONSERVATIVE)
+            for i, j in np.argwhere(np.triu(near & near.T, 1)).tolist()
+        ]
+        found = [time for time in times if time is not None]
+        return moving.start + min(found) if found else None
+
+    return ask
+
+
+_CONSERVATIVE: Final = "conservative advancement"
+FCL: Final = Method("fcl", _CONSERVATIVE, _fcl, "python-fcl")
+"""Pairs whose boxes over the whole time intersect, one by one, as prisms; objects are made within.
+
+Its default tolerance of the time, 1e-4, is taken as a share of the time span.
 """
 
 

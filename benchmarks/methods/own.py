@@ -7,13 +7,14 @@ from collections.abc import Callable
 from functools import partial
 from typing import Final
 
+from benchmarks.machine import is_compiled
 from benchmarks.methods.method import Answer, Method
 from exactpt import Contact, Scene, first_contact
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from fuzz.questions.all_pairs import first_contact_allpairs
 
-__all__ = ["EXACT_SEARCH", "OWN", "fresh"]
+__all__ = ["EXACT_SEARCH", "OWN", "fresh", "in_build"]
 
 
 def fresh(scene: Scene) -> Scene:
@@ -31,9 +32,14 @@ def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[
     return time_of_contact
 
 
-OWN: Final = (
-    Method("exactpt", "kinetic", partial(_prepare, partial(first_contact, method="kinetic"))),
-    Method("exactpt", "pairs", partial(_prepare, partial(first_contact, method="pairs"))),
+def in_build(setting: str) -> str:
+    """A setting of exactpt; in a compiled build it says so, beside that of plain Python."""
+    return f"{setting}, compiled" if is_compiled() else setting
+
+
+OWN: Final = tuple(
+    Method("exactpt", in_build(method), partial(_prepare, partial(first_contact, method=method)))
+    for method in ("kinetic", "pairs")
 )
 """The methods that users call."""
 

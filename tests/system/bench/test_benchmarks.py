@@ -44,7 +44,9 @@ from benchmarks.planted import Planted
 from exactpt import AlgebraicNumber, AuditError, Body, Scene
 from exactpt.cli import cli
 
-NO_PEERS = ("shapely", "pymunk", "ipctk", "Box2D", "flint", "sympy", "mpmath", "matplotlib")
+NO_PEERS = (
+    "shapely", "pymunk", "ipctk", "Box2D", "fcl", "flint", "sympy", "mpmath", "matplotlib",
+)  # fmt: skip
 
 
 @pytest.fixture

@@ -7,16 +7,19 @@ import pytest
 from bench_help import closing_jaw, meeting, passing, segments_and_points, thrown, turning
 from folding import every
 
-from benchmarks.methods import others
+from benchmarks.methods import others, own
 from benchmarks.methods.arrays import FROM_ARRAYS
 from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.cpp import SWEEP_AND_PRUNE, has_compiler
 from benchmarks.methods.method import Method, UnsuitableScene, error_of
 from benchmarks.methods.moving import Moving
 from benchmarks.methods.own import EXACT_SEARCH, OWN, fresh
+from benchmarks.peers import is_installed
 from benchmarks.planted import FAMILIES, Planted
+from benchmarks.programs import with_fcl
 from benchmarks.shapes import combs, tangle
 from benchmarks.wrong_answers import Wrong, count_wrong
+from exactpt import Body, Scene, Translation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from fuzz.questions.all_pairs import first_contact_allpairs
@@ -46,6 +49,44 @@ def test_exact_ways_are_exact(method, make, truth):
 def test_scenes_in_arrays_are_answered_exactly(make, truth):
     found = answer(FROM_ARRAYS, make())
     assert found is None if truth is None else found == AlgebraicNumber(truth)
+
+
+def test_rows_of_a_compiled_build_say_so(monkeypatch):
+    monkeypatch.setattr(own, "is_compiled", lambda: True)
+    assert own.in_build("pairs") == "pairs, compiled"
+    monkeypatch.setattr(own, "is_compiled", lambda: False)
+    assert own.in_build("pairs") == "pairs"
+
+
+def test_fcl_is_called_for_the_pairs_that_come_near(monkeypatch):
+    """The earliest of their times, from the start of the span on; FCL itself is not needed."""
+    called = []
+
+    def answered(question, way):
+        called.append((question["a"]["vertices"][0], way))
+        return None if len(called) == 1 else 3.0 / len(called)
+
+    monkeypatch.setattr(with_fcl, "answer", answered)
+    box = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    bodies = [
+        Body(str(i), [(x + 3 * i, y) for x, y in box], Translation([1, 1 if i else -1]))
+        for i in range(4)
+    ]
+
+    assert answer(others.FCL, Scene(bodies[:2], time=(1, 2))) is None
+    assert not called  # they move apart
+    assert answer(others.FCL, Scene(bodies, time=(1, 9))) == 1.0 + 3.0 / 3
+    assert [place for place, _ in called] == [[5.0, 0.0], [5.0, 0.0], [8.0, 0.0]]
+    with pytest.raises(UnsuitableScene, match="linear ones"):
+        others.FCL.prepare(thrown())
+    with pytest.raises(UnsuitableScene, match="convex"):
+        others.FCL.prepare(closing_jaw())
+
+
+@pytest.mark.skipif(not is_installed("python-fcl"), reason="python-fcl is not installed")
+def test_fcl_finds_a_contact_within_its_tolerance():
+    assert answer(others.FCL, meeting()) == pytest.approx(3.0, abs=0.01)
+    assert answer(others.FCL, passing()) is None
 
 
 @pytest.mark.long

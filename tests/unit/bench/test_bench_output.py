@@ -36,7 +36,8 @@ def test_a_peer_that_is_missing_is_skipped_by_name_once(tmp_path, monkeypatch, p
     results = Results(tmp_path)
     assert not results.output.has(package)
     assert not results.output.has(package)
-    assert results.said == [f"skipped: {package} is not installed (pip install 'exactpt[bench]')"]
+    extra = "engines" if package == "python-fcl" else "bench"
+    assert results.said == [f"skipped: {package} is not installed (pip install 'exactpt[{extra}]')"]
 
 
 def test_plots_are_skipped_without_matplotlib(tmp_path, monkeypatch):
