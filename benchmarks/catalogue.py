@@ -30,7 +30,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "skipping": "what is never computed, beside a run that computes all of it",
     "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
     "engines": "wrong answers of other engines to hard questions, with reproducers",
-    "proofs": "size and cost of proofs of first contacts, beside the run alone",
+    "proofs": "size and cost of proofs and certificates of first contacts, beside the run alone",
     "space": "the two elementary queries in space: other programs against the exact times",
     "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
 }

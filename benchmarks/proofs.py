@@ -1,8 +1,9 @@
-"""Proofs of first contacts: their size, and what it costs to write and to check them.
+"""Proofs and certificates of first contacts: their size, and the cost of writing and checking them.
 
 Beside the run alone, which the checker in C++ should not exceed. Processor time throughout; the
 checker in C++ is a process of its own. Both checkers must accept every proof. A second table has
-the shares of the steps of docs/proofs.md in the time of the checker in Python.
+the shares of the steps of docs/proofs.md in the time of the checker in Python. A third one has
+certificates of a scene of each family, beside the search by pairs.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from random import Random
+from statistics import median
 from tempfile import TemporaryDirectory
 from typing import Any, Final, NamedTuple
 from unittest.mock import patch
@@ -23,9 +25,21 @@ from benchmarks.output import Output, Row
 from benchmarks.point_scenes import random_linear
 from benchmarks.shapes import combs, crowd, deforming, tangle, thin_and_fast
 from benchmarks.timing import timed
-from exactpt import AuditError, InputError, Proof, Scene, first_contact, proof_check, prove
+from exactpt import (
+    AuditError,
+    BudgetExceeded,
+    InputError,
+    Proof,
+    Scene,
+    check_apart,
+    first_contact,
+    proof_check,
+    prove,
+)
 from exactpt.cgal import check_proof, find_program
 from exactpt.kernel.numbers import QQ
+from exactpt.proof import certificate_of
+from exactpt.scene.generate import EVERY, generate
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
@@ -37,11 +51,13 @@ class Sizes(NamedTuple):
         bodies: number of bodies of the crowds and lanes, and of points.
         vertices: number of vertices of each of two combs.
         deforming: number of bodies that deform.
+        families: number of families of scenes that are certified.
     """
 
     bodies: int
     vertices: int
     deforming: int
+    families: int
 
 
 STEPS: Final[dict[str, list[tuple[object, str]]]] = {
@@ -59,8 +75,8 @@ STEPS: Final[dict[str, list[tuple[object, str]]]] = {
 }
 """The functions of the checker in Python that do the steps of docs/proofs.md."""
 
-QUICK: Final = Sizes(50, 64, 16)
-FULL: Final = Sizes(1000, 1024, 256)
+QUICK: Final = Sizes(50, 64, 16, 3)
+FULL: Final = Sizes(1000, 1024, 256, len(EVERY))
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
@@ -75,6 +91,15 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
         steps.append({"scene": name, **_shares(proof)})
     output.table("proofs", rows)
     output.table("proof-steps", steps)
+    certified = list[Row]()
+    for family in sorted(EVERY)[: sizes.families]:
+        output.progress(family)
+        if (row := _certificate(family, seed)) is not None:
+            certified.append(row)
+    output.table("certificates", certified)
+    parts = ("write : search", "check : search", "both : search")
+    costs = {part: round(median(float(row[part] or 0) for row in certified), 1) for part in parts}
+    output.say(f"medians of {len(certified)} certificates: {costs}")
 
 
 def _scenes(sizes: Sizes) -> dict[str, tuple[str, Callable[[Random], Scene]]]:
@@ -110,6 +135,34 @@ def _row(scene: Scene, tiling: str, proof: Proof) -> Row:
         "C++ : run": None if cpp is None else round(cpp / alone, 2),
         "Python : run": round(python / alone, 1),
     }
+
+
+def _certificate(family: str, seed: int) -> Row | None:
+    """Return the least times of three runs after a first one; None if there is no certificate."""
+    try:
+        runs = [_certified(generate(family, seed)) for _ in range(4)]
+    except (InputError, BudgetExceeded):
+        return None
+    search, write, check = (min(run[k] for _, *run in runs[1:]) for k in range(3))
+    return {
+        "family": family,
+        "items": sum(len(body.edges) or 1 for body in generate(family, seed).bodies),
+        "bytes": len(runs[0][0].text),
+        "search ms": round(1e3 * search, 2),
+        "write ms": round(1e3 * write, 2),
+        "check ms": round(1e3 * check, 2),
+        "write : search": round(write / search, 2),
+        "check : search": round(check / search, 2),
+        "both : search": round((write + check) / search, 2),
+    }
+
+
+def _certified(scene: Scene) -> tuple[Proof, float, float, float]:
+    """Return a certificate, and the times of the search, of writing and of checking it."""
+    contact, search = timed(lambda: first_contact(scene, method="pairs"))
+    proof, write = timed(lambda: certificate_of(scene, contact))
+    check_apart.rational.cache_clear()  # which knows the numbers of the run before
+    return proof, search, write, timed(proof.check)[1]
 
 
 def _shares(proof: Proof) -> Row:

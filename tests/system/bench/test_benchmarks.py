@@ -416,16 +416,20 @@ def test_what_takes_long_is_asked_once(monkeypatch):
 @pytest.mark.cgal
 def test_proofs(results, program, monkeypatch):
     monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
-    proofs.run(results.output, proofs.Sizes(10, 16, 4), 0)
+    proofs.run(results.output, proofs.Sizes(10, 16, 4, 2), 0)
     rows = results.rows("proofs")
     assert len(rows) == 7
     assert all(int(row["bytes an event"] or 0) <= 130 for row in rows)
     assert all(float(row["C++ s"]) >= 0 for row in rows)
+    assert [row["family"] for row in results.rows("certificates")] == [
+        "ballistic",
+        "ballistic_points",
+    ]
 
 
 def test_proofs_without_the_program(results, tmp_path, monkeypatch):
     monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(tmp_path / "none"))
-    proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)
+    proofs.run(results.output, proofs.Sizes(10, 16, 2, 1), 0)
     assert {row["C++ s"] for row in results.rows("proofs")} == {""}
 
 
@@ -433,7 +437,7 @@ def test_a_proof_that_is_rejected_is_an_error(results, monkeypatch):
     wrong = "contact 0 0 vertex 0 vertex 1"
     monkeypatch.setattr("exactpt.proof.lines.Lines.none", lambda *_: iter([wrong]))
     with pytest.raises(AuditError, match="rejected: line"):
-        proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)
+        proofs.run(results.output, proofs.Sizes(10, 16, 2, 1), 0)
 
 
 TINY = living.Sizes((12,), ("lazy", "greedy"), 30, 10, 5)
