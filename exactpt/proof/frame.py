@@ -159,10 +159,9 @@ class Frame:
 
         The radii are added on both sides, and the distance above.
         """
-        along, norm = self.ends @ directions.T, np.hypot(*directions.T)
+        along = self.ends @ directions.T
         u, v = along[:, self.ends_of[rows, 0]], along[:, self.ends_of[rows, 1]]
-        wide = self._paths.wide[items][:, None] * norm
-        return np.minimum(u, v) - wide, np.maximum(u, v) + (wide + self._paths.extra * norm)
+        return self._wider(np.minimum(u, v), np.maximum(u, v), self._paths.wide, items, directions)
 
     @cached_property
     def _usual(self) -> Extents:
@@ -175,9 +174,17 @@ class Frame:
 
     def body_extents(self, directions: Floats) -> Extents:
         """Return the same of bodies: (2, bodies, directions)."""
-        along, norm = self.ends @ directions.T, np.hypot(*directions.T)
+        along, of_bodies = self.ends @ directions.T, self._paths.wide_bodies
         low, high = (f.reduceat(along, self._first_vertices, 1) for f in (np.minimum, np.maximum))
-        wide = self._paths.wide_bodies[self.bodies][:, None] * norm
+        return self._wider(low, high, of_bodies, self.bodies, directions)
+
+    def _wider(
+        self, low: Floats, high: Floats, wide: Floats, of: Items | list[int], directions: Floats
+    ) -> Extents:
+        if not self._paths.widest and not self._paths.extra:
+            return low, high
+        norm = np.hypot(*directions.T)
+        wide = wide[of][:, None] * norm
         return low - wide, high + (wide + self._paths.extra * norm)
 
     def cut(

@@ -73,11 +73,9 @@ class Paths:
             self.items += [(i, first + u, first + v) for u, v in body.edges or [(0, 0)]]
             self.first_item.append(len(self.items))
         self.body = np.array([i for i, _, _ in self.items], dtype=np.intp)
-        self.wide_bodies = np.array([float(r) for r in self.radii])
-        self.wide, self.widest = (
-            self.wide_bodies[self.body],
-            float(self.wide_bodies.max(initial=0.0)),
-        )
+        wide = [float(r) for r in self.radii]
+        self.wide_bodies, self.widest = np.array(wide), max(wide, default=0.0)
+        self.wide = self.wide_bodies[self.body]
         self._made = dict[tuple[int, int], Any]()
 
     def of(self, v: int) -> Breaks:

@@ -31,11 +31,12 @@ if TYPE_CHECKING:
 
 
 def _text(value: QQ) -> str:
-    if is_too_long(value):
+    text = str(value)
+    if len(text) > MAX_DIGITS and is_too_long(value):
         raise InputError(
             f"more than {MAX_DIGITS} digits have no place in a scene file: {show(value)}"
         )
-    return str(value)
+    return text
 
 
 def _coefficients(f: Polynomial) -> list[str]:
@@ -188,4 +189,4 @@ def _indented(data: object, line: str) -> str:
     if data and isinstance(data, dict):
         pairs = [f"{_indented(key, more)}: {_indented(data[key], more)}" for key in data]
         return f"{{{more}{f',{more}'.join(pairs)}{line}}}"
-    return json.dumps(data)
+    return str(data) if type(data) is int else json.dumps(data)
