@@ -59,5 +59,5 @@ def slabs(
             elif since > PATIENCE:
                 limit = longest
             if later == now + step and 4 * len(found[0]) < many:
-                step = min((2 if 64 * len(found[0]) > many else 4) * step, limit)
+                step = min(2 * step, limit)
             now = later

@@ -86,7 +86,7 @@ class SweptEdges:
         # Shorter slabs do not help vertices without boxes, nor where nothing moves.
         if math.isfinite(stride):
             first = min(first, power_of_two(math.frexp(stride / 8.0)[1] + normalization.time_scale))
-        many = many or 2 * len(self.ids) + 64
+        many = many or len(self.ids) + 32
         for now, later, found in slabs(times, near, many, first, longest):
             yield now, later, found
             self._enter_pieces(later)

@@ -36,6 +36,21 @@ def test_edges_of_a_deforming_body_that_cannot_vanish_cost_nothing(size):
     assert search.certificates == 0
 
 
+def test_a_slab_after_an_empty_one_is_not_so_long_that_most_of_its_candidates_come_later():
+    bodies = [
+        Body(
+            f"b{i}",
+            [(20 * x - 3, 20 * y - 2), (20 * x + 3, 20 * y - 3), (20 * x + 2, 20 * y + 3)],
+            Translation([0, (37 * i) % 41 - 20], [0, (53 * i) % 43 - 21, -10]),
+        )
+        for i, (x, y) in enumerate((x, y) for x in range(14) for y in range(14))
+    ]
+    search = PairsSearch(Scene(bodies, (0, 40)))
+
+    assert search.run_to_contact() is not None
+    assert search.certificates == 139  # 557 with slabs that grow by 4, or are twice as full
+
+
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("speed", ["1/4", "1/2", "1"])
 def test_an_edge_that_shrinks_to_a_point_is_a_contact(speed, closed):
