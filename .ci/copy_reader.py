@@ -24,7 +24,7 @@ is_rational read read_json file_bytes say
 """.split()  # noqa: SIM905
 METHODS = {  # of classes that are not copied whole
     "Poly": "__new__ __add__ __sub__ __mul__",
-    "Body": "__init__ read_motion coordinates places check_simple track",
+    "Body": "__init__ read_motion coordinates around places check_simple track",
     "Scene": "__init__ read of track place",
 }
 WIDTH = 118

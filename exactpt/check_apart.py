@@ -246,10 +246,12 @@ class Body:
         self.path = path_of(given['path']) if 'path' in given else None
     def coordinates(self, i: int, t: Fraction) -> tuple[Poly, ...]:
         if not self.frames: return self.shape[i]
-        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
-        (s, p), (e, q) = (self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)])
+        (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
         return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+    def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
+        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
+        return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
         motion = motion or self.motions[bisect_right(self.ends, t)]
         a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * longest(form)))

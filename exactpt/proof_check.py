@@ -702,10 +702,14 @@ class Body:
         """Return (x, y, z) of vertex i at (x / z, y / z), before motions; at rest off frames."""
         if not self.frames:
             return self.shape[i]
-        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
-        (s, p), (e, q) = self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]
+        (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
         return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+
+    def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
+        """Return the frames before and after a time."""
+        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
+        return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
 
     def places(self, t: Fraction, motion: Motion | None = None) -> list[Whole]:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
@@ -743,10 +747,15 @@ class Body:
 
     def keeps_lengths(self, t: Fraction) -> bool:
         """Return True if the body is only translated and rotated just after a time."""
-        (f, g, h), *others = (self.coordinates(i, t) for i in range(self.size))
+        keeps = self.motions[bisect_right(self.ends, t)].keeps_lengths
+        if self.frames:
+            (_, p), (_, q) = self.around(t)
+            WORK.spend(self.size * (500 + 8 * most_words(chain(*p, *q)) ** 2))
+            return keeps and len({(c - a, d - b) for (a, b), (c, d) in zip(p, q, strict=True)}) == 1
+        (f, g, h), *others = self.shape
         WORK.spend(self.size * (500 + 8 * most_words(chain(f, g, h)) ** 2))
         same = all((f * w)[1:] == (x * h)[1:] and (g * w)[1:] == (y * h)[1:] for x, y, w in others)
-        return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
+        return keeps and same
 
 
 def point(data: Json) -> Point:
@@ -1012,13 +1021,11 @@ class Scene:
 
     def is_rigid(self, body: Body, end: Fraction) -> bool:
         """Return True if lengths, dot and cross products of successive edges are constant."""
-        n, path = body.size, body.vertices
+        n, path, low = body.size, body.vertices, self.start
         triples = [(path[k - 1], path[k], path[(k + 1) % n]) for k in range(n)]
         if not body.closed:
             triples = triples[1:-1] if n > 2 else [(v, path[0], v) for v in path[1:]]
-        for t in [self.start, *(q for q in body.breaks if self.start < q < end)]:
-            if body.keeps_lengths(t):
-                continue
+        for t in (q for q in [low, *body.breaks] if low <= q < end and not body.keeps_lengths(q)):
             for a, v, b in ([self.track(u, t) for u in triple] for triple in triples):
                 of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
                 forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
@@ -1687,10 +1694,8 @@ def main(arguments: list[str]) -> int:
         paths, given = wishes(arguments)
         work = int(given["--work"]) if "--work" in given else None
         answer = file_bytes(Path(given["--expect"])) if "--expect" in given else b""
-        if len(paths) == 1:
-            proved = check_chain(paths[0], work)
-        else:
-            proved = check(file_bytes(paths[0]), file_bytes(paths[1]), work)
+        scene, *proof = map(file_bytes, paths) if paths[1:] else [b""]
+        proved = check(scene, proof[0], work) if proof else check_chain(paths[0], work)
         judge(proved, given, answer)
         return say(proved, 0, sys.stdout)
     except (Rejected, Exhausted) as verdict:
@@ -1710,12 +1715,11 @@ def file_bytes(path: Path) -> bytes:
 
 def check_chain(folder: Path, work: int | None = None) -> Proved:
     """Check ``1.proof`` with ``1.scene.json``, and so on; each begins where the last one ends."""
-    if not folder.is_dir():
-        raise NoProofError(f"{str(folder)!a} is no folder")
     stems = [path.stem for path in folder.glob("*.proof")]
     numbers = sorted(int(stem) for stem in stems if re.fullmatch("[1-9][0-9]{0,8}", stem))
     if not numbers or numbers[0] != 1:
-        raise NoProofError(f"{str(folder)!a} has no 1.proof")
+        reason = "has no 1.proof" if folder.is_dir() else "is no folder"
+        raise NoProofError(f"{str(folder)!a} {reason}")
     require(numbers[-1] == len(numbers), "rejected: the numbers of the parts have a gap")
     seams, last, start, chain = list[str](), None, Fraction(0), ["exactpt-chain 1"]
     for k in numbers:
@@ -1725,10 +1729,8 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
         except Rejected as verdict:
             raise Rejected(f"{verdict} (part {k})") from None
         work, here = work and WORK.left, proved.scene
-        if last is None:
-            start = here.start
-        else:
-            seams += seam(last, proved, k)
+        start = here.start if last is None else start
+        seams += [] if last is None else seam(last, proved, k)
         a, b, before = (hashlib.sha256(x).hexdigest() for x in (scene, proof, chain[-1].encode()))
         chain.append(f"{k} {a} {b} {here.start} {proved.until} {before}")
         last = proved
@@ -1751,8 +1753,7 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
     require(before.time is None, f"rejected: part {k - 1} ends with a contact")
     require(before.until == t, f"rejected: part {k} begins at {t}, not at {before.until}")
     old, new = ({body.name: body for body in p.scene.bodies} for p in (before, after))
-    for name in [name for name in new if name in old]:
-        a, b = old[name], new[name]
+    for name, a, b in [(name, old[name], new[name]) for name in new if name in old]:
         one, other = ([(r.start - x.first, h) for r, h in x.rings] for x in (a, b))
         same = one == other and a.closed == b.closed and a.size == b.size
         same = same and are_same(a.places(t), b.places(t))

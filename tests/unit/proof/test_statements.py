@@ -244,6 +244,37 @@ def test_bug_a_long_rate_of_a_spin_is_counted():
         )
 
 
+def test_bug_frames_that_are_translated_need_no_tracks_of_all_vertices(monkeypatch):
+    """2,000 frames of 100 vertices took 10 seconds: each vertex had a polynomial in each frame."""
+    frames = [
+        {"t": str(t), "vertices": [[str(x + t * t), str(x * x)] for x in range(20)]}
+        for t in range(50)
+    ]
+    text = json.dumps({
+        "exactpt": 1, "time": ["0", "49"],
+        "bodies": [{"name": "a", "closed": False, "keyframes": frames}],
+    })  # fmt: skip
+    scene, made = proof_check.Scene(text), []
+    cleared = proof_check.cleared
+    monkeypatch.setattr(proof_check, "cleared", lambda *f: made.append(f) or cleared(*f))
+    proof_check.WORK.start(100_000_000, 0)
+
+    assert proof_check.Checker(scene).is_rigid(scene.bodies[0], Fraction(49))
+    assert not made
+
+
+@pytest.mark.parametrize("last, is_rigid", [("3", False), ("2", True)])
+def test_frames_that_change_a_length_are_not_rigid(last, is_rigid):
+    corners = [[["0", "0"], ["2", "0"], ["0", "2"]], [["1", "0"], ["3", "0"], ["1", last]]]
+    frames = [{"t": str(t), "vertices": v} for t, v in enumerate(corners)]
+    scene = proof_check.Scene(json.dumps(
+        {"exactpt": 1, "time": ["0", "1"], "bodies": [{"name": "a", "keyframes": frames}]}
+    ))  # fmt: skip
+    proof_check.WORK.start(100_000_000, 0)
+
+    assert proof_check.Checker(scene).is_rigid(scene.bodies[0], Fraction(1)) == is_rigid
+
+
 def test_bug_pieces_of_many_vertices_are_counted(program, tmp_path):
     """Each piece of a motion has a track of each vertex."""
     polygon = [[k, k * k] for k in range(1500)]
