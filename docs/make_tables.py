@@ -5,8 +5,8 @@ and was the output of ``python -m benchmarks NAME -o docs/data/FOLDER``. The lin
 ``<!-- end of table -->`` are replaced by the table, and by the date, the commit and the machine of
 FOLDER/machine.txt.
 
-VIEW is ``COLUMNS``, separated by commas, or ``ROWS by COLUMNS, CELL``: one line for each value of
-the columns ROWS, one column for each value of COLUMNS (each of them one name, or some joined by
+VIEW is ``COLUMNS``, separated by commas, or ``ROWS across COLUMNS, CELL``: one line for each value
+of the columns ROWS, one column for each value of COLUMNS (each of them one name, or some joined by
 ``&``). CELL is a column, or a template as ``{seconds}, {error}``. A column with `` %`` after its
 name is a share; ``NAME = TITLE`` is a column with a title of its own. ``; where NAME = VALUE /
 VALUE`` after a view selects rows, as often as needed.
@@ -40,7 +40,7 @@ def _table(name: str, view: str) -> str:
     for condition in conditions:
         column, values = condition.split(" = ")
         found = [row for row in found if row[column] in values.split(" / ")]
-    lines = _pivot(view, found) if " by " in view else _columns(view, found)
+    lines = _pivot(view, found) if " across " in view else _columns(view, found)
     words = [
         any(cell and not cell[0].isdigit() for cell in line[1:])
         for line in zip(*lines, strict=True)
@@ -52,7 +52,7 @@ def _table(name: str, view: str) -> str:
 
 def _columns(view: str, found: list[Row]) -> list[list[str]]:
     """Return the title and the cells of each line, one for each row of the file."""
-    columns = [column.split(" = ") for column in view.split(", ")]
+    columns = [column.split(" = ") for column in re.split(r", (?![^{]*\})", view)]
     return [
         [column[-1].removesuffix(" %") for column in columns],
         *([_cell(column[0], row) for column in columns] for row in found),
@@ -61,7 +61,7 @@ def _columns(view: str, found: list[Row]) -> list[list[str]]:
 
 def _pivot(view: str, found: list[Row]) -> list[list[str]]:
     """Return the title and the cells of each line, one for each value of some columns."""
-    rows, rest = view.split(" by ")
+    rows, rest = view.split(" across ")
     columns, cell = rest.split(", ", 1)
     index, across = rows.split(" & "), columns.split(" & ")
     lines: dict[tuple[str, ...], dict[str, str]] = {}
@@ -80,10 +80,8 @@ def _cell(view: str, row: Row) -> str:
     """Return the text for a column, a share or a template; one 0 where a template has only such."""
     if "{" in view:
         text = re.sub(r"\{([^}]+)\}", lambda m: _cell(m[1], row), view).removesuffix(", ")
-        return "0" if re.fullmatch(r"0( / 0)*", text) else text
-    if view.endswith(" %"):
-        return _percent(row[view[:-2]])
-    return _shown(row[view])
+        return "0" if re.fullmatch(r"0( / 0)*|0.0 %( / 0.0 %)*", text) else text
+    return _shown(row[view]) if view in row else _percent(row[view.removesuffix(" %")])
 
 
 def _measured(path: Path) -> str:
@@ -98,11 +96,12 @@ def _percent(cell: str) -> str:
 
 
 def _shown(cell: str) -> str:
-    """Return a number in three digits, an integer in groups of three, or a text as it is."""
+    """Return a number in three digits, one above 1,000 in groups of three, or a text as it is."""
     if re.fullmatch(r"\d+", cell):
         return f"{int(cell):,}"
     try:
-        return f"{float(cell):.3g}"
+        text = f"{float(cell):.3g}"
+        return f"{float(text):,.0f}" if abs(float(text)) >= 1000 else text
     except ValueError:
         return cell
 
