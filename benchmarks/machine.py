@@ -30,7 +30,7 @@ def machine() -> list[str]:
 
 
 def is_compiled() -> bool:
-    """Whether the hot modules of exactpt are compiled."""
+    """Return True if the hot modules of exactpt are compiled."""
     return not filters.__file__.endswith(".py")
 
 

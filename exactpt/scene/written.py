@@ -99,13 +99,16 @@ def json_properties(body: Body) -> dict[str, object]:
 
 
 def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:
+    outline, *holes = (_ring_to_json(body, ring) for ring in rings)
+    return {"vertices": outline, "holes": holes} if holes else {"vertices": outline}
+
+
+def _ring_to_json(body: Body, ring: range) -> list[object]:
     doubles = body._shape.doubles
     if doubles is None:
-        vertices = [*map(_vertex_to_json, body.vertices)]
-    else:
-        vertices = [[_of_double(x), _of_double(y)] for x, y in zip(*doubles, strict=True)]
-    outline, *holes = (vertices[ring.start : ring.stop] for ring in rings)
-    return {"vertices": outline, "holes": holes} if holes else {"vertices": outline}
+        return [_vertex_to_json(body.vertices[i]) for i in ring]
+    xs, ys = doubles
+    return [[_of_double(xs[i]), _of_double(ys[i])] for i in ring]
 
 
 def _of_double(x: float) -> str:

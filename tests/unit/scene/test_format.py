@@ -18,7 +18,7 @@ from strategies import as_rational, fractions, scene_data
 from exactpt import Body, InputError, Polynomial, Scene, Translation
 from exactpt.motion.motions import REST
 from exactpt.scene.format import load, loads
-from exactpt.scene.written import save, scene_bytes, to_json
+from exactpt.scene.written import _of_double, save, scene_bytes, to_json
 
 SCENES = Path(__file__).parents[2] / "data" / "scenes"
 NAMES = sorted(path.stem for path in SCENES.glob("*_*.json"))
@@ -683,3 +683,16 @@ def test_doubles_are_written_exactly():
     given = [(0.5, -0.0), (1e22, 3), (5e-324, 0.1)]
     (body,) = to_json(Scene([Body("a", given)], time=(0, 1)))["bodies"]
     assert body["vertices"] == [[str(Fraction(x)), str(Fraction(y))] for x, y in given]
+
+
+def test_bug_each_vertex_of_a_body_of_parts_is_written_once(monkeypatch):
+    """All vertices of the body were converted for each part."""
+    parts = [[(3.5 * i, 0.0), (3.5 * i + 1, 0.0), (3.5 * i, 1.0)] for i in range(9)]
+    written = []
+    one = _of_double
+    monkeypatch.setattr("exactpt.scene.written._of_double", lambda x: written.append(x) or one(x))
+
+    data = to_json(Scene([Body("a", parts=parts)], (0, 1)))
+
+    assert written == [x for part in parts for vertex in part for x in vertex]
+    assert [len(part["vertices"]) for part in data["bodies"][0]["parts"]] == [3] * 9
