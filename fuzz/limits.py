@@ -35,6 +35,10 @@ class TimeIsUp(BaseException):
     """The time of the whole campaign is over."""
 
 
+class _Dropped(BaseException):
+    """The exception of a watch is not wanted any more."""
+
+
 def patience_of(scene: Scene) -> float:
     """Seconds of processor time within which any witness answers on a scene.
 
@@ -117,6 +121,7 @@ def _watched(seconds: float, ends: float | None) -> Iterator[None]:
     over = threading.Lock()
     over.acquire()
     thread, asker = ctypes.c_ulong(threading.get_ident()), _asker()
+    raised = threading.Event()
 
     def watch() -> None:
         wait = seconds
@@ -126,8 +131,8 @@ def _watched(seconds: float, ends: float | None) -> Iterator[None]:
             if _is_outside(asker, thread.value):
                 wait = SHORTLY
                 continue
-            kind = ctypes.py_object(_over(ends))
-            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, kind)
+            raised.set()
+            _raise_in(thread, _over(ends))
             wait = AGAIN
 
     watcher = threading.Thread(target=watch, daemon=True)
@@ -135,7 +140,12 @@ def _watched(seconds: float, ends: float | None) -> Iterator[None]:
     try:
         yield
     finally:
-        _withdraw(over, watcher, thread)
+        _withdraw(over, watcher, thread, raised)
+
+
+def _raise_in(thread: ctypes.c_ulong, kind: type[BaseException]) -> None:
+    """Raise an exception in a thread, soon; it replaces one that has not arrived."""
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(kind))
 
 
 def _asker() -> FrameType | None:
@@ -169,17 +179,28 @@ def _is_outside(asker: FrameType | None, thread: int) -> bool:
     return False
 
 
-def _withdraw(over: threading.Lock, watcher: threading.Thread, thread: ctypes.c_ulong) -> None:
+def _withdraw(
+    over: threading.Lock, watcher: threading.Thread, thread: ctypes.c_ulong, raised: threading.Event
+) -> None:
     """End a watch: no exception is raised after this; one that is under way is dropped.
 
     It may arrive anywhere in here, so nothing is held here that others wait for. A watch that
     went on would raise it in whichever thread got the identifier next.
+
+    To drop it, another one replaces it and arrives. It is not taken back by NULL: CPython 3.11
+    would keep its flag for pending exceptions, which only an arrival resets, and a traced call
+    would wait for that without end.
     """
-    ended = False
-    while not ended:
-        with contextlib.suppress(TooSlow, TimeIsUp):
+    while True:
+        try:
             if over.locked():
                 over.release()
             watcher.join()
-            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, None)
-            ended = True
+            while raised.is_set():
+                _raise_in(thread, _Dropped)
+                clock.sleep(0)
+        except (TooSlow, TimeIsUp):
+            continue
+        except _Dropped:
+            pass
+        return

@@ -579,3 +579,32 @@ def test_a_cluster_loses_a_worker_but_no_case():
 
     assert (progress.next, progress.found) == (300, 0)
     assert sum(n for key, n in progress.counts.items() if key[-1] == "cases") == 300
+
+
+TRACED = """
+import sys, threading
+from fuzz.limits import limit
+
+def work():
+    with limit(60):
+        pass
+
+thread = threading.Thread(target=work)
+thread.start()
+thread.join()
+
+def call(x):
+    return (lambda: x)()
+
+sys.settrace(lambda frame, event, arg: None)
+print(sum(map(call, range(9))))
+"""
+
+
+def test_bug_a_traced_call_after_a_limit_in_a_thread_returns():
+    """The limit left a flag of CPython 3.11 behind, at which traced calls waited without end."""
+    done = subprocess.run(
+        [sys.executable, "-c", TRACED], capture_output=True, text=True, timeout=60, check=False
+    )
+
+    assert (done.stdout, done.stderr) == ("36\n", "")
