@@ -140,13 +140,15 @@ def _monotone(points: Outline) -> Outline:
     """Return the polygon of two chains, below and above the line of its extreme points.
 
     Each is ordered by x, then by y: so neither chain touches itself, and one is below the other.
+    Points on the line are in the lower chain, or in the upper one if no point is above the line.
     """
-    ordered = sorted(points)
-    exact = [(rational(x), rational(y)) for x, y in ordered]
-    sides = [orientation(exact[0], exact[-1], p) for p in exact]
-    below = [p for p, s in zip(ordered, sides, strict=True) if s <= 0]
-    above = [p for p, s in zip(ordered, sides, strict=True) if s > 0]
-    return below + above[::-1] if any(sides) else []
+    first, *inner, last = sorted(points)
+    start, end, *others = [(rational(x), rational(y)) for x, y in (first, last, *inner)]
+    sides = [orientation(start, end, p) for p in others]
+    least = 1 if max(sides) > 0 else 0
+    below = [p for p, s in zip(inner, sides, strict=True) if s < least]
+    above = [p for p, s in zip(inner, sides, strict=True) if s >= least]
+    return [first, *below, last, *above[::-1]] if any(sides) else []
 
 
 def _moving() -> SearchStrategy[Moving]:

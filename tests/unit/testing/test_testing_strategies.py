@@ -3,6 +3,7 @@
 import builtins
 import importlib
 import sys
+from itertools import combinations, product
 
 import pytest
 from hypothesis import given, settings
@@ -12,6 +13,7 @@ from exactpt import Body, InputError, Rigid, Scene, first_contact
 from exactpt.geometry.predicates import orientation
 from exactpt.scene.generate import EVERY
 from exactpt.testing import FAMILIES, Question, strategies
+from exactpt.testing.strategies import _monotone
 
 
 @pytest.mark.long
@@ -27,6 +29,21 @@ def test_convex_polygons_are_convex(outline):
 @given(strategies.simple_polygons(), strategies.chains())
 def test_polygons_and_chains_are_simple(outline, chain):
     Scene([Body("a", outline), Body("b", chain, closed=False)])
+
+
+def test_bug_polygons_with_points_on_the_line_of_the_extreme_ones_are_simple():
+    """The closing edge went through a point on that line if none was above it."""
+    grid = [(float(x), float(y)) for x, y in product(range(3), repeat=2)]
+    outlines = [
+        (points, _monotone([*points])) for k in (3, 4, 5) for points in combinations(grid, k)
+    ]
+
+    made = [(points, outline) for points, outline in outlines if outline]
+
+    assert len(made) == 328  # all but those on one line
+    for points, outline in made:
+        assert sorted(outline) == [*points]
+        Scene([Body("a", outline)])
 
 
 @given(strategies.motions(degree=2, turning=True))
