@@ -41,7 +41,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes((20, 40, 80), (40, 80), (40, 80))
-FULL: Final = Sizes((50, 100, 200, 500), (50, 100, 200, 500), (50, 100, 200, 500, 1000, 2000))
+FULL: Final = Sizes((50, 100, 200, 500, 1000), (50, 500), (500, 1000, 2000, 4000))
 
 
 class Measured(NamedTuple):
@@ -91,6 +91,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                     "kilobytes": memory_of(partial(_start, fresh(scene))),
                     "changes of the IPT": without[-1].events,
                     "changes of the fan": with_fan[-1].fan,
+                    "fan : IPT": with_fan[-1].fan / max(1, without[-1].events),
                     "us an event": without[-1].per_event,
                     "us an event with the fan": with_fan[-1].per_event,
                     "exact": without[-1].exact,

@@ -17,7 +17,7 @@ from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.plots import series_of
 from benchmarks.shapes import TANGLES, TangleFamily, crowd, tangle
-from benchmarks.timing import exponent, memory_of, per_event, resident, timed
+from benchmarks.timing import exponent, memory_of, per_event, timed
 from exactpt import Scene, Simulation
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
@@ -58,6 +58,7 @@ FULL: Final = Sizes(
     (10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024, 4096), 1000, 3, (10_000, 100_000)
 )
 
+CROWD: Final = "convex crowd"
 LARGE_TILINGS: Final = ("lazy", "greedy")
 """The tilings that large crowds of convex bodies are given."""
 
@@ -108,7 +109,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     rows: list[Row] = []
     fits: list[Row] = []
     families: dict[str, tuple[Sequence[int], Callable[[int], Scene]]] = {
-        "convex crowd": (sizes.bodies, partial(_crowd, seed=seed))
+        CROWD: (sizes.bodies, partial(_crowd, seed=seed))
     }
     for name, make in TANGLES.items():
         for where, far in (("", False), (", far apart", True)):
@@ -121,23 +122,21 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                 runs.append(measure(scene_of(n), tiling, sizes))
                 rows.append(_row(family, tiling, scene_of(n), n, runs[-1]))
             fits.append(_fit(family, tiling, of_family, runs))
-    kept: list[Tiling] = []
-    large = []
+    unknown = dict.fromkeys(rows[0])
     for n in sizes.large:
         for tiling in LARGE_TILINGS:
-            output.progress(f"convex crowd, {tiling}, size {n}")
-            large.append(_large(n, tiling, 20 * sizes.events, seed, kept))
-    floors = [_floor(n, sizes.events, seed) for n in (*sizes.bodies, *sizes.large)]
+            output.progress(f"{CROWD}, {tiling}, size {n}")
+            rows.append({**unknown, **_large(n, tiling, 20 * sizes.events, seed)})
+    of_all = (*sizes.bodies, *sizes.large)
+    rows.extend({**unknown, **_floor(n, sizes.events, seed)} for n in of_all)
     output.table("scaling", rows)
-    output.table("scaling-large", large)
-    output.table("scaling-floor", floors)
     output.table("scaling-exponents", fits)
-    crowds = [row for row in rows if row["family"] == "convex crowd"]
-    for name, column, axis, drawn in (
-        ("events", "us an event", "microseconds an event", [*crowds, *large, *floors]),
-        ("certificates", "pending", "certificates", crowds),
+    crowds = [row for row in rows if row["family"] == CROWD]
+    for name, column, axis in (
+        ("events", "us an event", "microseconds an event"),
+        ("certificates", "pending", "certificates"),
     ):
-        series = series_of(drawn, "tiling", "size", column)
+        series = series_of(crowds, "tiling", "size", column)
         output.lines(f"scaling-{name}", f"Convex bodies: {axis}", ("bodies", axis), series)
 
 
@@ -197,33 +196,34 @@ def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
             return
 
 
-def _large(bodies: int, tiling: str, events: int, seed: int, kept: list[Tiling]) -> Row:
-    """Figures of a single run; memory is that of the process, scene and tiling apart.
-
-    ``kept`` gets the tiling, so that no later one is made in the memory of this one.
-    """
-    empty = resident()
+def _large(bodies: int, tiling: str, events: int, seed: int) -> Row:
+    """Figures of a single run."""
     scene = _crowd(bodies, seed)
-    with_scene = resident()
     kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
-    with_tiling = resident()
-    kept.append(kinetic)
+    made, pending = kinetic.certifier.made, len(kinetic.queue)
     _, seconds = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     return {
+        "family": CROWD,
         "tiling": tiling,
         "size": bodies,
+        "vertices": scene.vertex_count,
         "start s": start,
+        "made": made,
+        "pending": pending,
         "events": kinetic.stats.total,
         "us an event": per_event(seconds, kinetic.stats.total),
-        "kB a body, scene": (with_scene - empty) / bodies / 1000,
-        "kB a body, tiling": (with_tiling - with_scene) / bodies / 1000,
     }
 
 
 def _floor(bodies: int, events: int, seed: int) -> Row:
     """What the certificates of an event take alone, as a row beside those of the tilings."""
     kinetic = start_tiling(_crowd(bodies, seed), "lazy", QQ(0))
-    return {"tiling": ALONE, "size": bodies, "us an event": floor(kinetic, events)}
+    return {
+        "family": CROWD,
+        "tiling": ALONE,
+        "size": bodies,
+        "us an event": floor(kinetic, events),
+    }
 
 
 def _crowd(k: int, seed: int) -> Scene:

@@ -1,15 +1,19 @@
-"""Tables of the pages from the files that benchmarks write: ``python docs/make_tables.py``.
+"""Figures of the pages from the files that benchmarks write: ``python docs/make_tables.py``.
 
-A page has, on a line of its own, ``<!-- table FOLDER/FILE.csv: VIEW -->``; FOLDER is in docs/data
-and was the output of ``python -m benchmarks NAME -o docs/data/FOLDER``. The lines from there to
-``<!-- end of table -->`` are replaced by the table, and by the date, the commit and the machine of
-FOLDER/machine.txt.
+To measure anew: ``python -m benchmarks NAME -o docs/data/NAME``, then this script, in a checkout
+without changes of the package. FOLDER-compiled is the same command after ``make compiled``.
+
+A page, or README, has on a line of its own ``<!-- table FOLDER/FILE.csv: VIEW -->``; FOLDER is in
+docs/data. The lines from there to ``<!-- end of table -->`` are replaced by the table, and by the
+date, the commit and the machine of FOLDER/machine.txt. ``<!-- value FOLDER/FILE.csv: CELL -->``,
+in a line, is followed by one cell up to ``<!-- end -->``. Pictures are shown where benchmarks
+write them. A file of docs/data that no page names is removed.
 
 VIEW is ``COLUMNS``, separated by commas, or ``ROWS across COLUMNS, CELL``: one line for each value
 of the columns ROWS, one column for each value of COLUMNS (each of them one name, or some joined by
 ``&``). CELL is a column, or a template as ``{seconds}, {error}``. A column with `` %`` after its
 name is a share; ``NAME = TITLE`` is a column with a title of its own. ``; where NAME = VALUE /
-VALUE`` after a view selects rows, as often as needed.
+VALUE`` after a view or a cell selects rows, as often as needed.
 """
 
 from __future__ import annotations
@@ -22,24 +26,49 @@ from typing import Final, TypeAlias
 DOCS: Final = Path(__file__).parent
 Row: TypeAlias = dict[str, str]
 
-MARKED: Final = re.compile(
+TABLE: Final = re.compile(
     r"(<!-- table ([^:\n]+): ([^\n]+) -->\n).*?(<!-- end of table -->)", re.DOTALL
 )
+VALUE: Final = re.compile(r"(<!-- value ([^:\n]+): ([^\n]+?) -->)[^\n]*?(<!-- end -->)")
+PICTURE: Final = re.compile(r"\]\((?:docs/)?data/([^)]+)\)")
+
+
+def pages() -> list[Path]:
+    """Return the pages that may have figures."""
+    return [DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md"))]
 
 
 def filled(page: str) -> str:
-    """Return a page with its marked tables made anew."""
-    return MARKED.sub(lambda m: f"{m[1]}{_table(m[2], m[3])}\n{m[4]}", page)
+    """Return a page with its marked tables and values made anew."""
+    page = TABLE.sub(lambda m: f"{m[1]}{_table(m[2], m[3])}\n{m[4]}", page)
+    return VALUE.sub(lambda m: f"{m[1]}{_value(m[2], m[3])}{m[4]}", page)
 
 
-def _table(name: str, view: str) -> str:
-    path = DOCS / "data" / name
+def named(page: str) -> set[Path]:
+    """Return the files of docs/data that a page names."""
+    marked = [m[2] for pattern in (TABLE, VALUE) for m in pattern.finditer(page)]
+    return {DOCS / "data" / name for name in [*marked, *PICTURE.findall(page)]}
+
+
+def _value(name: str, view: str) -> str:
+    cell, (row,) = _selected(DOCS / "data" / name, view)
+    return _cell(cell, row)
+
+
+def _selected(path: Path, view: str) -> tuple[str, list[Row]]:
+    """Return a view without its conditions, and the rows of a file that satisfy them."""
     with path.open(encoding="utf-8", newline="") as file:
         found = list(csv.DictReader(file))
     view, *conditions = view.split("; where ")
     for condition in conditions:
         column, values = condition.split(" = ")
         found = [row for row in found if row[column] in values.split(" / ")]
+    return view, found
+
+
+def _table(name: str, view: str) -> str:
+    path = DOCS / "data" / name
+    view, found = _selected(path, view)
     lines = _pivot(view, found) if " across " in view else _columns(view, found)
     words = [
         any(cell and not cell[0].isdigit() for cell in line[1:])
@@ -107,11 +136,16 @@ def _shown(cell: str) -> str:
 
 
 def main() -> None:
-    """Fill the tables of all pages."""
-    for path in sorted(DOCS.rglob("*.md")):
+    """Fill all pages, and remove the files that none of them names."""
+    kept = set[Path]()
+    for path in pages():
         page = path.read_text(encoding="utf-8")
         if (new := filled(page)) != page:
             path.write_text(new, encoding="utf-8")
+        kept |= named(page)
+    for path in (DOCS / "data").glob("*/*"):
+        if path not in kept and path.name != "machine.txt":
+            path.unlink()
 
 
 if __name__ == "__main__":

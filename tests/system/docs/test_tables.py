@@ -1,27 +1,28 @@
-"""Tables of the pages are those of the files that benchmarks have written (docs/data)."""
+"""Figures of the pages are those of the files that benchmarks have written (docs/data)."""
 
 import re
 
 import pytest
 from folding import every
 
-from docs.make_tables import DOCS, MARKED, filled
+from docs.make_tables import DOCS, filled, main, named, pages
 
-PAGES = [path for path in sorted(DOCS.rglob("*.md")) if MARKED.search(path.read_text("utf-8"))]
+PAGES = [path for path in pages() if named(path.read_text("utf-8"))]
 
 
 @every("page", PAGES)
-def test_tables_of_a_page_are_those_of_its_files(page):
+def test_figures_of_a_page_are_those_of_its_files(page):
     text = page.read_text(encoding="utf-8")
 
     assert filled(text) == text, "run: python docs/make_tables.py"
 
 
-def test_every_file_of_data_has_a_date_a_commit_and_a_table():
-    named = {m[2] for page in PAGES for m in MARKED.finditer(page.read_text(encoding="utf-8"))}
+def test_every_file_of_data_has_a_date_a_commit_and_a_page():
+    files = set.union(*(named(page.read_text(encoding="utf-8")) for page in PAGES))
 
-    assert {DOCS / "data" / name for name in named} == set((DOCS / "data").glob("*/*.csv"))
-    for machine in {(DOCS / "data" / name).with_name("machine.txt") for name in named}:
+    machines = {path.with_name("machine.txt") for path in files}
+    assert files | machines == set((DOCS / "data").glob("*/*"))
+    for machine in machines:
         about = machine.read_text(encoding="utf-8")
         assert re.search(
             r"^measured on \d{4}-\d\d-\d\d at commit [0-9a-f]{7,}$", about, re.MULTILINE
@@ -58,3 +59,20 @@ def test_a_table_is_made_anew(view, lines, tmp_path, monkeypatch):
         "before", f"<!-- table x/x.csv: {view} -->", *lines, "",
         "Measured on D; build, Python 3, P.", "<!-- end of table -->", "after",
     ]  # fmt: skip
+
+
+def test_files_that_no_page_names_are_removed(tmp_path, monkeypatch):
+    monkeypatch.setattr("docs.make_tables.DOCS", tmp_path / "docs")
+    folder = tmp_path / "docs" / "data" / "x"
+    folder.mkdir(parents=True)
+    (folder / "x.csv").write_text("name,count\na,1234\nb,5\n")
+    for name in ("machine.txt", "x.svg", "y.svg", "y.csv"):
+        (folder / name).touch()
+    begin = "<!-- value x/x.csv: {count} times; where name = a -->"
+    (tmp_path / "README.md").write_text(f"[P](docs/data/x/x.svg) {begin}7<!-- end --> of {begin}")
+
+    main()
+
+    text = (tmp_path / "README.md").read_text()
+    assert text == f"[P](docs/data/x/x.svg) {begin}1,234 times<!-- end --> of {begin}"
+    assert {path.name for path in folder.iterdir()} == {"machine.txt", "x.svg", "x.csv"}
