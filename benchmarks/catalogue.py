@@ -29,6 +29,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",
     "skipping": "what is never computed, beside a run that computes all of it",
     "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
+    "batch": "many scenes by `exactpt batch`: time and memory, beside one by one",
     "engines": "wrong answers of other engines to hard questions, with reproducers",
     "proofs": "size and cost of proofs and certificates of first contacts, beside the run alone",
     "space": "the two elementary queries in space: other programs against the exact times",

@@ -15,6 +15,7 @@ from benchmarks import (
     arithmetic,
     arrays,
     auto,
+    batch,
     changes,
     cliffs,
     crowds,
@@ -201,6 +202,19 @@ def test_scaling(results, undrawn):
     floors = [row for row in rows if row["tiling"] == scaling.ALONE]
     assert [int(row["size"]) for row in floors] == [4, 8, 20]
     assert all(float(row["us an event"]) > 0 for row in floors)
+
+
+def test_batch(results):
+    batch.run(results.output, batch.Sizes(12, 6), 0)
+    (row,) = results.rows("batch")
+    assert row["scenes"] == "12"
+    assert all(float(row[name]) > 0 for name in ("MB of results", "us a scene", "MB of a process"))
+
+
+def test_a_batch_with_another_result_is_an_error():
+    batch.check(['{"contact": null}'], [None])
+    with pytest.raises(AuditError, match="disagree about scene 1"):
+        batch.check(['{"contact": null}', '{"contact": {}}'], [None, None])
 
 
 def test_points(results, undrawn):
