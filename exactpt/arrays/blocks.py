@@ -117,11 +117,11 @@ class Block(NamedTuple):
         open_ = unclear | (counts > 1) | ((counts == 1) & (best == INFINITY))
         hits = left[~open_[pair[left]]]
         cs = orientations(relative.take(hits)) if reach is None else []
-        self._record(k[pair[hits]], candidates.take(hits), cs, low[hits], high[hits])
+        self._record(k, candidates.take(hits), cs, low[hits], high[hits])
         left = left[open_[pair[left]]]
         left = left[np.argsort(pair[left], kind="stable")]
         times = self.spans.at(k[pair[left]]).times(low[left], high[left])
-        listed = candidates.take(left).listed(o, *times)
+        listed = candidates.take(left).listed(o, *two, *times)
         end = np.cumsum(np.where(open_, counts, 0))
         for m in np.flatnonzero(open_).tolist():
             some = listed[int(end[m] - counts[m]) : int(end[m])]
@@ -130,15 +130,15 @@ class Block(NamedTuple):
     def _record(
         self, k: Indices, hits: Candidates, cs: list[Coefficient], low: Floats, high: Floats
     ) -> None:
-        """Record an incidence of each of the pairs k; ``cs`` if it is a zero of an orientation."""
-        o, second = self.outlines, hits.second == 1
-        a, b = np.where(second, (self.j[k], self.i[k]), (self.i[k], self.j[k]))
+        """Record incidences of pairs among k; ``cs`` if they are zeros of orientations."""
+        a, b = hits.bodies(self.i[k], self.j[k])
+        k = k[hits.pair]
         if self.is_rounded or not cs:
             low, high = self.spans.at(k).times(low, high)
         else:
-            precise = hits.exact(o, self.bodies.coefficients, a, b, len(cs))
+            precise = hits.exact(self.outlines, self.bodies.coefficients, a, b, len(cs))
             low, high = sharpened(precise, cs, self.spans.start[k], low, high)
-        numbers = hits.numbered(o)
+        numbers = hits.numbered(self.outlines, a, b)
         record_edges(self.contacts, self.numbers[k], low, high, hits.second, *numbers)
 
     @property

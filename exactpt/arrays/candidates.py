@@ -87,22 +87,26 @@ class Candidates(NamedTuple):
         )
         return ExactRelative((u,), (start, *moved), shift)
 
-    def listed(self, o: Outlines, low: Floats, high: Floats) -> list[Candidate]:
+    def listed(
+        self, o: Outlines, i: Indices, j: Indices, low: Floats, high: Floats
+    ) -> list[Candidate]:
         """Return their records, with bounds of their times; features by number in their bodies."""
-        columns = (low, high, self.second, *self.numbered(o))
+        columns = (low, high, self.second, *self.numbered(o, *self.bodies(i, j)))
         rows = zip(*(column.tolist() for column in columns), strict=True)
         return [Candidate(a, b, Touch(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
 
-    def numbered(self, o: Outlines) -> tuple[Indices, Indices, Indices]:
-        """Return vertices, edges and corners by number in their bodies; -1 for none."""
-        vertex, edge, corner = (
-            numbers - first[np.searchsorted(first, numbers, side="right") - 1]
-            for first, numbers in (
-                (o.first_vertex, self.vertex), (o.first_edge, self.edge),
-                (o.first_vertex, self.corner),
-            )
-        )  # fmt: skip
-        return vertex, np.where(self.corner < 0, edge, -1), np.where(self.corner < 0, -1, corner)
+    def bodies(self, i: Indices, j: Indices) -> tuple[Indices, Indices]:
+        """Return the bodies of the vertices and those of the edges, of pairs (i, j) of bodies."""
+        i, j = i[self.pair], j[self.pair]
+        second = self.second == 1
+        return np.where(second, j, i), np.where(second, i, j)
+
+    def numbered(self, o: Outlines, a: Indices, b: Indices) -> tuple[Indices, Indices, Indices]:
+        """Return vertices, edges and corners by number in their bodies a, b; -1 for none."""
+        is_edge = self.corner < 0
+        edge = np.where(is_edge, self.edge - o.first_edge[b], -1)
+        corner = np.where(is_edge, -1, self.corner - o.first_vertex[b])
+        return self.vertex - o.first_vertex[a], edge, corner
 
     def joined(self, other: Candidates) -> Candidates:
         """Return these, followed by others."""

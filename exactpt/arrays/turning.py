@@ -109,7 +109,9 @@ def record_turning(
         off = 8.0 * U * (np.abs(start) + length)
         low = np.maximum(start, start + low * length - off)
         high = start + high * length + off
-        record_edges(contacts, pair, low, high, found.second, *found.numbered(o))
+        record_edges(
+            contacts, pair, low, high, found.second, *found.numbered(o, *found.bodies(i, j))
+        )
 
 
 def _places_of(bodies: BodyArrays, turns: Floats) -> tuple[Complex, Floats]:

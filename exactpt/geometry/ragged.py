@@ -61,12 +61,14 @@ def ranges(counts: Indices, most: int) -> list[tuple[int, int]]:
 def edges_of(offsets: Indices, closed: Flags) -> Edges:
     """Return the edges of bodies: polygons if closed and of three or more vertices."""
     sizes = np.diff(offsets)
-    rings = closed & (sizes > 2)
-    counts = np.where(rings, sizes, np.maximum(sizes - 1, 1))
-    owner, position = spread(counts)
-    first = offsets[owner] + position
-    last = offsets[owner] + (position + 1) % sizes[owner]
-    return Edges(first, last, np.concatenate(([0], np.cumsum(counts))))
+    rings, points = closed & (sizes > 2), sizes == 1
+    counts = np.where(rings | points, sizes, sizes - 1)
+    ends = np.cumsum(counts)
+    first = np.arange(counts.sum()) + np.repeat(offsets[:-1] - (ends - counts), native(counts))
+    last = first + 1
+    back = rings | points
+    last[ends[back] - 1] = offsets[:-1][back]
+    return Edges(first, last, np.concatenate(([0], ends)))
 
 
 @np.errstate(all="ignore")

@@ -107,14 +107,19 @@ class BodyArrays(Sequence[Body]):
         return len(self.vertices)
 
     def take(self, some: Indices) -> BodyArrays:
-        """Return some bodies, without names."""
-        sizes = np.diff(self.offsets)[some]
-        ends = np.concatenate(([0], np.cumsum(sizes)))
-        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], native(sizes))
+        """Return some bodies, without names; consecutive ones in increasing order share memory."""
+        rows: Indices | slice = some
+        ends = np.concatenate(([0], np.cumsum(np.diff(self.offsets)[some])))
+        if len(some) and (np.diff(some) == 1).all():
+            rows = slice(int(some[0]), int(some[-1]) + 1)
+            at: Indices | slice = slice(int(self.offsets[rows.start]), int(self.offsets[rows.stop]))
+        else:
+            shift = self.offsets[some] - ends[:-1]
+            at = np.arange(ends[-1]) + np.repeat(shift, native(np.diff(ends)))
         taken = BodyArrays.__new__(BodyArrays)
         taken.vertices, taken.offsets = self.vertices[at], ends
-        taken.coefficients, taken.closed = self.coefficients[some], self.closed[some]
-        taken.radii, taken._names, taken._made = self.radii[some], None, {}  # noqa: SLF001
+        taken.coefficients, taken.closed = self.coefficients[rows], self.closed[rows]
+        taken.radii, taken._names, taken._made = self.radii[rows], None, {}  # noqa: SLF001
         return taken
 
     def doubtful(self, some: Indices | None = None, rounded: Floats | None = None) -> list[int]:

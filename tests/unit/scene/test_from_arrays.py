@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from exactpt import Body, InputError, Scene, Simulation, Translation, first_contact
+from exactpt.geometry.ragged import edges_of
 from exactpt.motion import body as body_module
+from exactpt.scene.body_arrays import BodyArrays
 
 CORNERS = np.array([(0, 0), (2, 0), (0, 2), (5, 1), (7, 0.1), (7, 3), (9, 5), (8, 4)])
 OFFSETS = [0, 3, 4, 6, 8]
@@ -149,3 +151,27 @@ def test_arrays_are_copied():
     corners[:] = 0.0
 
     assert scene.bodies[1].at(0) == [(5, 1)]
+
+
+def test_consecutive_bodies_are_taken_without_a_copy():
+    """Blocks of pairs take their bodies from the arrays of all."""
+    bodies = BodyArrays(CORNERS, OFFSETS, velocities=VELOCITIES, radii=[0, 1, 2, 3])
+    taken = bodies.take(np.arange(1, 4))
+
+    assert np.shares_memory(taken.vertices, bodies.vertices)
+    assert taken.offsets.tolist() == [0, 1, 3, 5]
+    for some in ([1, 2, 3], [3, 1, 2], [2, 2], [0, 2], [3], []):
+        taken = bodies.take(np.array(some, dtype=np.int64))
+        parts = [CORNERS[OFFSETS[k] : OFFSETS[k + 1]].tolist() for k in some]
+        assert taken.vertices.tolist() == [vertex for part in parts for vertex in part]
+        assert np.diff(taken.offsets).tolist() == [len(part) for part in parts]
+        assert taken.radii.tolist() == some
+        assert taken.coefficients[:, :, 1].tolist() == [list(VELOCITIES[k]) for k in some]
+
+
+def test_edges_of_rings_chains_and_points():
+    edges = edges_of(np.array([0, 3, 4, 6, 9, 12]), np.array([True, True, True, False, True]))
+
+    assert edges.offsets.tolist() == [0, 3, 4, 5, 7, 10]
+    assert edges.first.tolist() == [0, 1, 2, 3, 4, 6, 7, 9, 10, 11]
+    assert edges.last.tolist() == [1, 2, 0, 3, 5, 7, 8, 10, 11, 9]
