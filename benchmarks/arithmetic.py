@@ -44,7 +44,7 @@ FULL: Final = Sizes(200, 16, (2, 5, 10, 14, 16, 18, 20, 30, 50, 100, 150, 200, 3
 
 
 class _Asked(NamedTuple):
-    """The answers to all questions of one degeneracy, and microseconds per question."""
+    """The results for all questions of one degeneracy, and microseconds per question."""
 
     signs: list[int]
     orders: list[int]
@@ -62,7 +62,7 @@ class _Input(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask all arithmetics the same questions.
+    """Compute the same questions in all arithmetics.
 
     Raises:
         AuditError: if the filter and exact arithmetic disagree.

@@ -1,7 +1,7 @@
 """Questions a second: many small questions at once, beside one by one, and other programs.
 
 Triangles, and points against segments, all in linear motion, in general position. A sample of the
-questions is asked one by one; its answers must be those of the arrays.
+questions is computed one by one; the results must be those of the arrays.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TOLERANCE: Final = 1e-6
 
 
 class Sizes(NamedTuple):
-    """Number of queries and of pairs of triangles, and of those that are asked one by one."""
+    """Number of queries and of pairs of triangles, and of those that are computed one by one."""
 
     queries: int
     pairs: int
@@ -47,9 +47,9 @@ class _Questions(NamedTuple):
     Attributes:
         name: of the kind.
         size: their number.
-        ask: asks all at once.
+        ask: computes all at once.
         peers: of each other program the package, and a function from numbers of questions to
-            what asks it these.
+            a function that computes these.
     """
 
     name: str
@@ -59,10 +59,10 @@ class _Questions(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask all questions.
+    """Compute all questions.
 
     Raises:
-        AuditError: if an answer of the arrays is not that of `first_contact`.
+        AuditError: if a result of the arrays is not that of `first_contact`.
     """
     rng = np.random.default_rng(seed)
     rows: list[Row] = []

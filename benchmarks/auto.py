@@ -33,7 +33,7 @@ FULL: Final = Sizes((3, 6), 5)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask every method about a scene of every family and size.
+    """Run every method on a scene of every family and size.
 
     Raises:
         AuditError: if two methods disagree.

@@ -30,7 +30,7 @@ class Family(NamedTuple):
 
     Attributes:
         scene: the scene of a size and a seed.
-        size: what the size is.
+        size: the name of the size.
         bound: the paper's bound on the changes of the greedy tiling, as a power of the size.
         source: where the paper has it.
     """

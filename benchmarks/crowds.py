@@ -1,6 +1,6 @@
 """The first contact of crowds of convex bodies: built from arrays, and from bodies.
 
-Times are the least of some runs, each with a scene built anew. Both scenes have the same answer.
+Times are the least of some runs, each with a scene built anew. Both scenes have the same result.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Measure all crowds.
 
     Raises:
-        AuditError: if the two scenes of a crowd have different answers.
+        AuditError: if the two scenes of a crowd have different results.
     """
     rows: list[Row] = []
     for density, numbers in (("dense", sizes.dense), ("sparse", sizes.sparse)):

@@ -1,8 +1,8 @@
-"""How run time grows with the size of what users ask for: families of scenes at three sizes.
+"""How run time grows with the size of queries of users: families of scenes at three sizes.
 
 The exponent is that of the least-squares fit of c w^p to the processor time, w being the work of
-the answer: the number of queries, bodies, vertices or pieces, or its square where every pair is
-in the answer. Families with an exponent above the limit are cliffs.
+the result: the number of queries, bodies, vertices or pieces, or its square where every pair is
+in the result. Families with an exponent above the limit are cliffs.
 """
 
 from __future__ import annotations

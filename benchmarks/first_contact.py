@@ -1,7 +1,7 @@
 """Run time against error in the time of the first contact, in comparison with other programs.
 
 The true time is planted, or found by the exact reference search if that is fast enough;
-otherwise it is the common answer of two methods of exactpt that share little code.
+otherwise it is the common result of two methods of exactpt that share little code.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ FULL: Final = Sizes(
 @final
 @dataclass(slots=True)
 class _Result:
-    """The answers of a method about the scenes of one size."""
+    """The results of a method for the scenes of one size."""
 
     seconds: list[float] = field(default_factory=list)
     errors: list[float] = field(default_factory=list)
@@ -146,7 +146,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Run every method on every family, from small to large scenes.
 
     Raises:
-        AuditError: if an answer of exactpt is wrong.
+        AuditError: if a result of exactpt is wrong.
     """
     methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
     if not has_compiler():
@@ -223,7 +223,7 @@ def _ask(
     truths: Sequence[_Truth],
     sizes: Sizes,
 ) -> _Result | None:
-    """The answers about some scenes; None if the method is unsuitable or too slow."""
+    """Return the results for some scenes; None if the method is unsuitable or too slow."""
     if method is EXACT_SEARCH and _search_seconds(scenes[0]) > sizes.seconds:
         return None
     result = _Result()

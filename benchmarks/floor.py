@@ -1,4 +1,4 @@
-"""What the certificates of an event cost alone, without a queue and a tiling to repair."""
+"""The cost of the certificates of an event alone, without a queue and a tiling to repair."""
 
 from __future__ import annotations
 

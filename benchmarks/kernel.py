@@ -64,7 +64,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Give every program the same questions.
 
     Raises:
-        AuditError: if answers of exactpt contradict each other, or SymPy's order of roots.
+        AuditError: if results of exactpt contradict each other, or SymPy's order of roots.
     """
     rng = Random(f"kernel:{seed}")
     finders = [f for f in FINDERS if f.package is None or output.has(f.package)]
@@ -132,7 +132,7 @@ def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPol
 
 
 def _right(finder: Finder, answers: Sequence[Any], truth: Sequence[AlgebraicNumber]) -> int | None:
-    """Number of answers close to the root; None if the program returns no values."""
+    """Return the number of results close to the root; None if the program returns no values."""
     value = finder.value
     if value is None:
         return None

@@ -1,7 +1,7 @@
 """Convex bodies that bounce in a box: contacts a second, and the cost of a change of plan.
 
 The bodies move straight, and get new velocities at every contact. The rate of the last third of
-the contacts beside that of the first tells whether a run slows down with its age. Audits are
+the contacts beside that of the first shows if a run slows down with its age. Audits are
 timed apart: all angles of the tiling, and that no two bodies touch.
 """
 

@@ -19,7 +19,7 @@ OWN: Final = ("exactpt", "gmpy2", "numpy")
 
 
 def machine() -> list[str]:
-    """One line each: processor and system, build of exactpt, date and commit, all versions."""
+    """Return a line each: processor and system, build of exactpt, date and commit, all versions."""
     versions = [f"{name} {_version(name)}" for name in (*OWN, *PEERS)]
     return [
         f"{_processor()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
@@ -42,7 +42,7 @@ def _version(package: str) -> str:
 
 
 def _commit() -> str:
-    """The commit of the checkout, and whether the package differs from it."""
+    """Return the commit of the checkout, and if the package differs from it."""
     git = ["git", "-C", str(Path(__file__).parent)]
     try:
         head = subprocess.check_output([*git, "rev-parse", "--short", "HEAD"], text=True)
@@ -53,7 +53,7 @@ def _commit() -> str:
 
 
 def _processor() -> str:
-    """The name of the processor, as far as the system tells."""
+    """Return the name of the processor, as far as the system has it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -1,8 +1,8 @@
-"""Questions about moving points, answered with different number types.
+"""Questions about moving points, computed with different number types.
 
 The questions are the sign of an orientation just after time 0, its first zero later, and which
-of two first zeros is earlier. Rounding types answer in closed form, by the same code for every
-precision; exactpt answers with its filter and without.
+of two first zeros is earlier. Rounding types use a closed form, by the same code for every
+precision; exactpt computes with its filter and without.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class MovingPoint(NamedTuple):
 
 
 class Questions(ABC):
-    """Questions about moving points, answered with one number type."""
+    """Questions about moving points, computed with one number type."""
 
     @abstractmethod
     def sign(self, triple: Triple) -> int:
@@ -60,7 +60,7 @@ class Arithmetic(NamedTuple):
     Attributes:
         name: its name in tables.
         load: converts moving points; not timed.
-        context: context manager in which to convert and ask.
+        context: context manager in which to convert and compute.
     """
 
     name: str

@@ -47,7 +47,7 @@ class Output:
         self.say(f"\n{name}: {shows}")
 
     def has(self, package: str) -> bool:
-        """Whether an optional package is installed; if not, this is printed once."""
+        """Return True if an optional package is installed; if not, print this once."""
         if is_installed(package):
             return True
         if package not in self._skipped:

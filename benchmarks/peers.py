@@ -26,7 +26,7 @@ ENGINES: Final = {"python-fcl"}
 
 
 def is_installed(package: str) -> bool:
-    """Whether a package can be imported; what it warns of then is not shown.
+    """Return True if a package can be imported; its warnings are not shown.
 
     (Modules by SWIG, such as Box2D, crash where Python makes their warnings errors.)
     """

@@ -28,7 +28,7 @@ class Finder:
     Attributes:
         name: its name in tables.
         convert: converts an integer polynomial to its own type; not timed.
-        first: the first root, in its own type; None if it cannot tell.
+        first: the first root, in its own type; None if that is undecided.
         value: that root as a double, not timed; None for intervals of arbitrary width.
         numbers: converts the first root for comparison by `before`; not timed.
         before: whether one root is less than another.

@@ -216,7 +216,7 @@ def _large(bodies: int, tiling: str, events: int, seed: int) -> Row:
 
 
 def _floor(bodies: int, events: int, seed: int) -> Row:
-    """What the certificates of an event take alone, as a row beside those of the tilings."""
+    """Return the row of the certificates of an event alone, beside those of the tilings."""
     kinetic = start_tiling(_crowd(bodies, seed), "lazy", QQ(0))
     return {
         "family": CROWD,

@@ -1,7 +1,7 @@
 """Small questions and the building of scenes: two triangles, a crowd, plans, many pieces.
 
-Each question is asked of scenes built anew, from doubles. Times are the least of some runs, in
-milliseconds for one question. Every answer is compared with that of another method.
+Each query is one of scenes built anew, from doubles. Times are the least of some runs, in
+milliseconds for one query. Every result is compared with that of another method.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def _velocity(rng: Random) -> Translation:
 
 
 def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
-    """Two triangles of doubles in linear motion: built, asked, both; other programs."""
+    """Two triangles of doubles in linear motion: built, queried, both; other programs."""
     given = [
         (
             _polygon(rng, 0, 0, 3),

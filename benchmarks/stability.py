@@ -100,7 +100,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Find the first contact of every modified scene.
 
     Raises:
-        AuditError: if an answer differs.
+        AuditError: if a result differs.
     """
     movers = _movers(sizes.bodies, seed)
     for method in METHODS:  # imports on first use are not timed
@@ -150,7 +150,7 @@ def _demand_equal(base: Contact, contact: Contact, case: _Case) -> None:
 
 
 def _is_image(base: AlgebraicNumber, time: AlgebraicNumber, clock: Polynomial) -> bool:
-    """Whether clock(time) is base, the only root of its polynomial in its interval."""
+    """Return True if clock(time) is base, the only root of its polynomial in its interval."""
     image = ZERO
     for c in reversed(base._polynomial):
         image = image * clock + Polynomial([c])

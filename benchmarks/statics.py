@@ -35,7 +35,7 @@ FULL: Final = Sizes(64, (8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096))
 
 
 class Swept(NamedTuple):
-    """What one pseudo-triangulation takes.
+    """The cost of one pseudo-triangulation.
 
     Attributes:
         diagonals: their number.

@@ -31,7 +31,7 @@ Q = TypeVar("Q")
 
 
 def timed(ask: Callable[[], T]) -> tuple[T, float]:
-    """The answer, and the processor time in seconds that it took.
+    """Return the result of a function, and its processor time in seconds.
 
     Existing objects are excluded from garbage collection, so that they cost nothing.
     """
@@ -47,13 +47,13 @@ def timed(ask: Callable[[], T]) -> tuple[T, float]:
 def in_turn(
     asks: Mapping[str, Callable[[], Callable[[], T]]], runs: int
 ) -> dict[str, tuple[T, float]]:
-    """Questions asked in turn, in each of some runs: their answers and least times in seconds.
+    """Run some queries in turn, some times; return their results and least times in seconds.
 
     In turn, so that whatever else the machine does is shared by all of them.
 
     Args:
-        asks: by name, what prepares a question, which is not timed.
-        runs: number of runs. Only the first asks what takes ten times as long as the fastest.
+        asks: by name, a function that prepares a query, which is not timed.
+        runs: number of runs; one for a query that takes ten times as long as the fastest.
     """
     found = {name: timed(prepare()) for name, prepare in asks.items()}
     limit = 10.0 * min(seconds for _, seconds in found.values())
@@ -65,7 +65,7 @@ def in_turn(
 
 
 def fastest(ask: Callable[[], T], runs: int) -> tuple[T, float]:
-    """The answer, and the least processor time of some runs in seconds."""
+    """Return the result of a query, and its least processor time in some runs, in seconds."""
     found = in_turn({"": lambda: ask}, runs)
     return found[""]
 
@@ -76,16 +76,17 @@ def beside(
     runs: int,
     value: Callable[[T], object] = lambda answer: answer,
 ) -> tuple[T, dict[str, float]]:
-    """The answer to a question, and the least seconds of each way to it, see `in_turn`.
+    """Return the result of a query, and the least seconds of each way to it, see `in_turn`.
 
     Args:
         question: its name.
-        ways: by name, what prepares a way, which is not timed. The answer is that of the first.
+        ways: by name, a function that prepares a way, which is not timed. The result is that of
+            the first.
         runs: number of runs.
-        value: the part of an answer that is compared.
+        value: the part of a result that is compared.
 
     Raises:
-        AuditError: if two ways have different answers.
+        AuditError: if two ways have different results.
     """
     found = in_turn(ways, runs)
     answers = [answer for answer, _ in found.values()]
@@ -96,29 +97,29 @@ def beside(
 
 
 def time_of(contact: Contact | Approach | None) -> AlgebraicNumber | None:
-    """The exact time of an answer; None without one."""
+    """Return the exact time of a result; None without one."""
     return None if contact is None else contact.time
 
 
 def near(contact: Contact | Approach | None) -> float | None:
-    """The time of an answer for a table."""
+    """Return the time of a result for a table."""
     return None if contact is None else float(contact.time)
 
 
 def microseconds(ask: Callable[[Q], T], questions: Sequence[Q]) -> tuple[float, list[T]]:
-    """The median over three passes of the microseconds per question, and the answers."""
+    """Return the median over three passes of the microseconds per query, and the results."""
     passes = [timed(lambda: [ask(q) for q in questions]) for _ in range(3)]
     middle = sorted(seconds for _, seconds in passes)[1]
     return 1e6 * middle / max(1, len(questions)), passes[-1][0]
 
 
 def per_event(seconds: float, events: int) -> float:
-    """Microseconds per event; 0 without events."""
+    """Return the microseconds per event; 0 without events."""
     return 1e6 * seconds / events if events else 0.0
 
 
 def memory_of(make: Callable[[], object]) -> float:
-    """The kilobytes of a new object, and of what its creation caches in existing objects."""
+    """Return the kilobytes of a new object, with those that its creation caches elsewhere."""
     tracemalloc.start()
     try:
         kept = make()
@@ -128,13 +129,13 @@ def memory_of(make: Callable[[], object]) -> float:
 
 
 def resident() -> int:
-    """The bytes of memory of this process without garbage; its maximum where that is unknown."""
+    """Return the memory of this process without garbage, or its maximum if unknown; in bytes."""
     gc.collect()
     return resident_memory()
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:
-    """The exponent p of the log-log least-squares fit of c n^p; NaN for too few points."""
+    """Return the exponent p of the log-log least-squares fit of c n^p; NaN for too few points."""
     points = [(math.log(n), math.log(v)) for n, v in zip(sizes, values, strict=True) if v > 0]
     if len({x for x, _ in points}) < 2:
         return math.nan

@@ -38,7 +38,7 @@ FULL: Final = Sizes(100, 1000)
 @final
 @dataclass(slots=True)
 class Wrong:
-    """Number of wrong answers of a method about a family; off: found, but at another time."""
+    """Number of wrong results of a method for a family; off: found, but at another time."""
 
     scenes: int = 0
     missed: int = 0
@@ -47,7 +47,7 @@ class Wrong:
 
     @property
     def total(self) -> int:
-        """The number of all wrong answers."""
+        """The number of all wrong results."""
         return self.missed + self.invented + self.off
 
 
@@ -55,7 +55,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Run every method on every family.
 
     Raises:
-        AuditError: if an answer of exactpt is wrong.
+        AuditError: if a result of exactpt is wrong.
     """
     methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
     names = [_short_name(method) for method in methods]
@@ -92,7 +92,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 
 def count_wrong(method: Method, scenes: Sequence[Planted]) -> Wrong:
-    """Compare a method's answers with the truth; scenes that do not suit it do not count."""
+    """Compare a method's results with the truth; scenes that do not suit it do not count."""
     wrong = Wrong()
     for scene, truth in scenes:
         try:

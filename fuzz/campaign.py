@@ -1,6 +1,6 @@
 """Campaigns: cases with consecutive numbers are checked, in worker processes or in this one.
 
-What is checked is a `Check`. Its results are counted in the order of the numbers, so a campaign
+The work is that of a `Check`. Its results are counted in the order of the numbers, so a campaign
 that was stopped goes on with the first case that does not count, from its state or by ``--start``.
 """
 
@@ -77,7 +77,7 @@ class Counts(dict[tuple[str, ...], float]):
 
 
 class Finding(NamedTuple):
-    """What a check has found.
+    """A finding of a check.
 
     Attributes:
         row: row of the table in which it is counted.
@@ -93,11 +93,11 @@ class Finding(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What a check does next.
+    """The next step of a check.
 
     Attributes:
         seconds: time that is allowed for it; a worker that takes much longer is killed.
-        finding: what is reported then.
+        finding: the report in that case.
         is_found: whether it has been found already, and is being shrunk.
     """
 
@@ -122,18 +122,18 @@ class Item(NamedTuple):
 
 
 class Result(NamedTuple):
-    """The counts of an item, and what was found."""
+    """The counts of an item, and its findings."""
 
     counts: Counts
     findings: Sequence[Finding] = ()
 
 
 class Check(Protocol):
-    """What a campaign does with its cases; it is pickled for worker processes.
+    """The work of a campaign on its cases; it is pickled for worker processes.
 
     Attributes:
         name: its name, in the state of a campaign.
-        about: what has to be equal in a campaign that goes on from a state, as JSON data.
+        about: the data that have to be equal in a campaign that goes on from a state, as JSON data.
         chunk: number of cases of an item.
     """
 
@@ -146,7 +146,7 @@ class Check(Protocol):
         return None
 
     def wanted(self, counts: Counts) -> frozenset[Any] | None:  # noqa: ARG002
-        """Return what is still wanted, nothing if the campaign is over; None: everything."""
+        """Return the part still wanted, nothing if the campaign is over; None: everything."""
         return None
 
     def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
@@ -237,7 +237,7 @@ INTERRUPTS: Final = _Interrupts()
 
 @dataclass(frozen=True)
 class _Job:
-    """What a worker does with an item.
+    """The work on an item.
 
     Attributes:
         check: the check.
@@ -291,7 +291,7 @@ def campaign(
     """Go on with a campaign until a limit is reached, or an interrupt.
 
     Args:
-        check: what is done with each case.
+        check: the work on each case.
         progress: its progress, updated.
         report: called with each finding when it arrives.
         count: number of cases from ``progress.start`` on; None for no limit.

@@ -91,7 +91,7 @@ def as_primitive(coefficients: Sequence[QQ]) -> IntPoly:
 
 
 def answer(case: Case) -> filters.Answer:
-    """What the filter of the case's degree says."""
+    """Return the result of the filter of the case's degree."""
     c, e, times = case.c, case.e, (case.now_low, case.now_high, case.horizon)
     if len(c) == 2:
         return filters.linear(c[0], c[1], e[0], e[1], *times, case.at_root)
@@ -101,7 +101,7 @@ def answer(case: Case) -> filters.Answer:
 
 
 def answers(cases: Sequence[Case]) -> list[filters.Answer]:
-    """What the filters in arrays say about cases of one degree, 1 or 2."""
+    """Return the results of the filters in arrays for cases of one degree, 1 or 2."""
     columns = [np.array(c) for c in zip(*(case.c + case.e for case in cases), strict=True)]
     times = [np.array([getattr(q, k) for q in cases]) for k in ("now_low", "now_high", "horizon")]
     ask: Any = vectorized.linears if len(columns) == 4 else vectorized.quadratics
@@ -110,7 +110,7 @@ def answers(cases: Sequence[Case]) -> list[filters.Answer]:
 
 
 def judge(case: Case, said: filters.Answer) -> str:
-    """What is wrong with an answer; empty if nothing is."""
+    """Return the fault of an answer; empty if it is right."""
     s, low, high = said
     if s == 0:
         return ""

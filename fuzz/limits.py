@@ -165,12 +165,12 @@ def _frames(thread: int) -> Iterator[FrameType]:
 
 
 def _runs(function: FrameType | None, thread: int) -> bool:
-    """Whether a frame is one of those that a thread is in."""
+    """Return True if a frame is one of those that a thread is in."""
     return any(frame is function for frame in _frames(thread))
 
 
 def _is_outside(asker: FrameType | None, thread: int) -> bool:
-    """Whether a thread is entering or leaving a limit: an exception could leave locks behind."""
+    """Return True if a thread enters or leaves a limit: an exception could leave locks behind."""
     for frame in _frames(thread):
         if frame is asker:
             return False

@@ -18,7 +18,7 @@ TOLERANCE: Final = 1e-9
 
 
 def wrong_normal(scene: Scene, contact: Contact | None) -> str | None:
-    """Return what is wrong with the normals of a contact after the start; None if nothing is.
+    """Return the fault of the normals of a contact after the start; None if nothing is.
 
     The normal of a vertex on an edge of a body without radius is a unit vector perpendicular to the
     edge. If the body has no interior, it points to the side from which the vertex comes, to the

@@ -1,4 +1,4 @@
-"""What all commands of campaigns have in common: options, output and exit codes."""
+"""The common part of all commands of campaigns: options, output and exit codes."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def conduct(
     Exit codes: 0; `FAILED` after a finding; `INTERRUPTED`.
 
     Args:
-        check: what is done with each case.
+        check: the work on each case.
         chosen: the options of the command line.
         first: number of the first case, if neither an option nor a state has it.
         whole: number of cases if no limit is given.

@@ -119,7 +119,7 @@ def _functions(
 
 
 def _changes(function: ast.FunctionDef) -> list[Callable[[], str]]:
-    """Return what changes the function, one change for each place; what they return is a text."""
+    """Return the changes of the function, one for each place; they return a text."""
     found: list[Callable[[], str]] = []
     waiting: list[ast.AST] = list(function.body)
     while waiting:

@@ -59,7 +59,7 @@ MARGIN: Final = 16.0
 
 
 class Sample(NamedTuple):
-    """What is measured from time to time.
+    """A measurement, from time to time.
 
     Attributes:
         seconds: elapsed time.
@@ -220,7 +220,7 @@ class Soak:
             self.simulation.remove(body.name)
 
     def copy(self) -> None:
-        """Let a copy go on for a while: it does what the original does."""
+        """Let a copy go on for a while: it does the same as the original."""
         twin = self.simulation.copy()
         steps = self.rng.randint(1, 16)
         if self._advance(twin, steps) != self._advance(self.simulation, steps):
@@ -249,7 +249,7 @@ class Soak:
             raise AuditError("bodies overlap")
 
     def prove(self) -> None:
-        """Have what comes next proved, and the proof checked by the independent program."""
+        """Prove the next part, and have the proof checked by the independent program."""
         now = self.simulation.now._low
         scene = self._scene_now().until(now + self.rng.randint(1, 16) * STEP)
         text = json.dumps(to_json(scene)).encode()
@@ -283,7 +283,7 @@ def table(soak: Soak) -> list[str]:
 
 
 def verdict(soak: Soak) -> list[str]:
-    """What has grown from the second third of the soak to the last; empty if nothing."""
+    """Return the quantities that have grown from the second third of the soak to the last."""
     third = len(soak.samples) // 3
     if not third:
         return []

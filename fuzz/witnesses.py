@@ -25,7 +25,7 @@ variants, so that a campaign covers more scenes in its time. None selects all of
 """
 
 
-class Difference(Exception):  # noqa: N818 - what was found, the purpose of it all
+class Difference(Exception):  # noqa: N818 - a finding, the purpose of it all
     """Two methods have given different answers.
 
     Attributes:

@@ -41,7 +41,7 @@ class Finding:
     Attributes:
         verdict: how it is wrong, one of `WRONG`.
         clear: whether it is wrong by far, see `CLEARLY`.
-        question, truth: what was asked, and the truth.
+        question, truth: the question, and the truth.
         answer: the answer.
     """
 
@@ -53,7 +53,7 @@ class Finding:
 
     @property
     def order(self) -> tuple[bool, int, bool, int]:
-        """By which findings are compared: the worst first, then what is near, then the smallest."""
+        """The key of findings: the worst first, then those that are near, then the smallest."""
         bodies = self.question.a, self.question.b
         reach = max(abs(c) for body in bodies for vertex in body.vertices for c in vertex)
         return not self.clear, WRONG.index(self.verdict), reach > FAR, self.question.size
@@ -62,15 +62,15 @@ class Finding:
 @final
 @dataclass(slots=True)
 class Result:
-    """What an engine has answered, asked in one way.
+    """The answers of an engine, called in one way.
 
     Attributes:
         name: the engine and the way.
-        about: what its adapter says.
+        about: the description by its adapter.
         way: the way.
         version: its version.
         rows: by family, the number of answers of each of `COLUMNS`.
-        reasons: why questions were not asked, with their number.
+        reasons: why questions were left out, with their number.
         seconds: how long each answer took.
         error: the largest error of a time that keeps the promise; None if there is none.
         worst: the worst finding, shrunken; None if there is none.
@@ -88,7 +88,7 @@ class Result:
 
     @property
     def promises(self) -> list[tuple[str, str]]:
-        """What the engine promises in this way: its words, and where they stand."""
+        """The promise of the engine in this way: its words, and where they stand."""
         about, way = self.about, self.about["ways"][self.way]
         return [(words, where) for words, where in way.get("promises") or about["promises"]]
 
@@ -122,7 +122,7 @@ def ask(
     engine: Engine, way: str, asked: Sequence[Asked], *, seconds: float,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Result:  # fmt: skip
-    """Ask an engine all questions that it takes, in one way.
+    """Put all questions that it takes to an engine, in one way.
 
     Args:
         engine: the engine.

@@ -29,7 +29,7 @@ _NAMES: Final = {
 
 
 def from_zero(question: Question) -> Question | None:
-    """The same question with a time span from 0 on and bodies where they are then.
+    """The same question with a time span from 0 on and bodies where they are at that time.
 
     None if one of its numbers would not be a double.
     """
@@ -97,13 +97,13 @@ def kind_of(body: Moving) -> str:
 
 
 def why_not(takes: Mapping[str, Any], question: Question, truth: Truth) -> str | None:
-    """Why an engine is not asked a question; None if it is.
+    """Return the reason why an engine does not get a question; None if it does.
 
     Args:
         takes: "shapes" (see `kind_of`); "motion": "linear" or "polynomial"; if there are limits,
             "vertices": the most of a body, "digits": of its numbers in binary, "least" and
             "most": of the width or height of a body, whichever is smaller or larger, "start":
-            "apart" if the bodies may not meet at the start.
+            "apart" if the bodies may not touch at the start.
         question: the question, from time 0 on.
         truth: its truth.
     """
@@ -129,7 +129,7 @@ def why_not(takes: Mapping[str, Any], question: Question, truth: Truth) -> str |
 
 
 def _short(body: Moving, span: float, digits: int) -> bool:
-    """Whether all coordinates at both ends have at most these binary digits."""
+    """Return True if all coordinates at both ends have at most these binary digits."""
     for k, path in enumerate((body.x, body.y)):
         way = Fraction(path[1] if len(path) > 1 else 0.0) * Fraction(span)
         for vertex in body.vertices:

@@ -35,7 +35,7 @@ LOADING: Final = 60.0
 
 
 class Missing(Exception):  # noqa: N818 - an outcome
-    """The engine is not installed; the message says how to install it."""
+    """The engine is not installed; the message has the command that installs it."""
 
 
 @final
@@ -87,7 +87,7 @@ class Engine:
         modules: for JavaScript, a folder ``node_modules``; None if there is none.
 
     Attributes:
-        about: what the adapter says.
+        about: the description by the adapter.
         version: the version of the engine.
 
     Raises:
@@ -173,7 +173,7 @@ class Engine:
         return copy
 
     def _line(self, seconds: float) -> dict[str, Any] | None:
-        """What the worker says next; None at the end, or if it does not come in time."""
+        """Return the next message of the worker; None at the end, or if it is not in time."""
         out = self._process.stdout
         assert out is not None  # noqa: S101 - it is a pipe
         deadline, text = monotonic() + seconds, b""
@@ -213,12 +213,12 @@ class Engine:
         process.wait()
         for pipe in (process.stdin, process.stdout):
             if pipe is not None:
-                with suppress(OSError):  # what was not read any more
+                with suppress(OSError):  # the rest, which was not read
                     pipe.close()
 
 
 def _said(line: bytes) -> dict[str, Any] | None:
-    """What a worker says in a line; None if the engine itself has printed it."""
+    """Return the message of a worker in a line; None if the engine itself has printed it."""
     try:
         found = json.loads(line)
     except ValueError:

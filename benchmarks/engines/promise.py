@@ -33,7 +33,7 @@ _SLACK: Final = rational(TOLERANCE)
 
 
 class Leeway(NamedTuple):
-    """What is promised about a question: a distance, a lateness and a brevity."""
+    """The promise about a question: a distance, a lateness and a brevity."""
 
     distance: float
     late: float
@@ -45,7 +45,7 @@ class Leeway(NamedTuple):
 
 
 def leeway(allows: Mapping[str, float], question: Question) -> Leeway:
-    """What is promised about a question from time 0 on.
+    """Return the promise about a question from time 0 on.
 
     Args:
         allows: the sum of "distance", "of_extent" (a share of the width or height of all that
@@ -100,7 +100,7 @@ def fault(question: Question, truth: Truth, answer: object, allowed: Leeway) -> 
 
 
 def _during(span: ContactInterval, low: QQ, high: QQ) -> bool:
-    """Whether bodies touch at a time of an interval."""
+    """Return True if bodies touch at a time of an interval."""
     return span.start.compare_rational(high) <= 0 and span.end.compare_rational(low) >= 0
 
 
@@ -109,12 +109,12 @@ def _is_brief(span: ContactInterval, brief: float) -> bool:
 
 
 def _sinks(question: Question, depth: float, span: ContactInterval, until: QQ) -> bool:
-    """Whether bodies sink into each other by more than a depth during a contact, before a time.
+    """Return True if bodies sink into each other by more than a depth in a contact, before a time.
 
     The depth of two convex bodies is the least overlap of their projections, over the normals of
     all edges (for segments on one line: and the directions of edges); each is linear in time, so
     that it exceeds a number in an interval of time. For other bodies, and if the depth is 0, so
-    that a touch counts, the answer is yes.
+    that a touch counts, it is True.
     """
     if depth == 0.0:
         return True

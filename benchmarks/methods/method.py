@@ -15,7 +15,7 @@ Answer: TypeAlias = "AlgebraicNumber | float | None"
 
 
 class UnsuitableScene(Exception):  # noqa: N818 - an outcome: the method is for other scenes
-    """The method does not support a scene; the message says why."""
+    """The method does not support a scene; the message has the reason."""
 
 
 @final
@@ -38,7 +38,7 @@ class Method:
 
 
 def error_of(answer: Answer, truth: AlgebraicNumber) -> float:
-    """The error of an answer; 0 if it is the truth or the double nearest to it."""
+    """The error of a result; 0 if it is the truth or the double nearest to it."""
     if answer is None:
         raise ValueError("no time was answered")
     if isinstance(answer, AlgebraicNumber):

@@ -33,7 +33,7 @@ def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[
 
 
 def in_build(setting: str) -> str:
-    """A setting of exactpt; in a compiled build it says so, beside that of plain Python."""
+    """A setting of exactpt; in a compiled build its name has this, beside that of plain Python."""
     return f"{setting}, compiled" if is_compiled() else setting
 
 

@@ -45,7 +45,7 @@ class Hostile(NamedTuple):
     """A hostile file.
 
     Attributes:
-        content: what it contains.
+        content: its bytes.
         seed: number of the valid file that it was made from.
         wound: "value", if one value of that was changed; else "text".
     """

@@ -62,7 +62,7 @@ class Ended(NamedTuple):
         outcome: "read", "refused", "spent" (out of budget), "broken" (a forged state of which the
             checksum is right), or "FAULT".
         seconds: processor time.
-        fault: what is wrong; empty if nothing.
+        fault: the fault; empty without one.
     """
 
     reader: str
@@ -119,7 +119,7 @@ def _reader_of(kind: str, rng: Random) -> _Reader:
 
 
 def _run(line: str, path: Path) -> tuple[str, str]:
-    """Run a command; its outcome, and what is wrong with it."""
+    """Run a command; return its outcome and its fault."""
     budget = ["--max-seconds", str(SECONDS)]
     if not line.startswith("convert"):
         budget += ["--max-events", "200"]
@@ -129,7 +129,7 @@ def _run(line: str, path: Path) -> tuple[str, str]:
 
 
 def _captured(call: Callable[[], object]) -> tuple[int, str, str]:
-    """The exit code of a call, and what it has written to the standard streams."""
+    """Return the exit code of a call, and the text that it has written."""
     streams = [io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2)]
     code: object = 0
     with contextlib.redirect_stdout(streams[0]), contextlib.redirect_stderr(streams[1]):

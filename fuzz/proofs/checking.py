@@ -28,7 +28,7 @@ PATIENCE: Final = 60.0
 
 
 def is_geometric(answer: str) -> bool:
-    """Whether a proof has been rejected, though its lines and its map are in order."""
+    """Return True if a proof has been rejected, though its lines and its map are in order."""
     return answer.startswith("rejected: ") and MAP.search(answer) is None
 
 

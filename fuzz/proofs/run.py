@@ -165,7 +165,7 @@ def _moved(file: bytes, lines: list[str], random: Random) -> tuple[bytes, list[s
 
 
 def is_true(mutant: Mutant, answer: str) -> bool:
-    """Return True if what has been accepted is right by the reference, incidences included."""
+    """Return True if an accepted statement is right by the reference, incidences included."""
     try:
         scene = loads(mutant.scene.decode())
     except InputError:

@@ -23,7 +23,7 @@ def _at(lines: list[str], i: int, *new: str) -> list[str]:
 
 
 def _late(events: list[int], random: Random) -> int:
-    """One of the events, often one of the last: what comes after it has less to object to."""
+    """Return one of the events, often one of the last: fewer lines come after it."""
     return random.choice(events[-3:] if random.random() < 0.7 else events)
 
 

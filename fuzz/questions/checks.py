@@ -65,7 +65,7 @@ class Checked(NamedTuple):
     Attributes:
         scene: its scene, the query in space, or the case of a filter.
         kind: what happens in it, for the table of a run.
-        fault: what is not as defined; None if all is.
+        fault: a difference from the definition; None without one.
         signs: number of signs, roots and orders that CGAL has decided.
     """
 
@@ -112,7 +112,7 @@ def _asked(random: Random, scene: Scene, gap: Clearance) -> QQ:
 
 
 def _wrong_distance(random: Random, scene: Scene, gap: Clearance) -> str | None:
-    """What is wrong with distances at times, the pieces, or the minimum."""
+    """Return the fault of distances at times, the pieces, or the minimum."""
     ends = AlgebraicNumber(scene._start), AlgebraicNumber(scene._end)
     if (gap.pieces[0].start, gap.pieces[-1].end) != ends:
         return "the pieces do not cover the time span"

@@ -17,7 +17,7 @@ Found = tuple[AlgebraicNumber, set[frozenset[str]]] | None
 
 
 def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
-    """Return a scene, what was asked about it, and what is wrong with the answer if anything is."""
+    """Return a scene, the query about it, and the fault of the result, if any."""
     scene = crowded_scene(random)
     kind = random.choice(["since", "ignoring", "planner"])
     bodies = list(scene.bodies)

@@ -1,4 +1,4 @@
-"""The command ``python -m fuzz questions``, and what is done with each case of it."""
+"""The command ``python -m fuzz questions``, and its work on each case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether two simple chains cross, by counting: move one of them a little.
+"""A test if two simple chains cross, by counting: move one of them a little.
 
 A connected piece C that the chains have in common is a path in both. If an end of a chain is in
 C, they do not cross there: that chain does not divide the neighbourhood of C, and leaves C at one

@@ -67,13 +67,13 @@ def _is_within(
 
 
 def _are_beyond(t: AlgebraicNumber, p: Tracks, q: Tracks, d: QQ, axis: Norm) -> bool:
-    """Whether all of q are more than d beyond all of p."""
+    """Return True if all of q are more than d beyond all of p."""
     k = 0 if axis == "x" else 1
     return all(t.sign_of(gap(_moved(u, d, d), v)[k]) > 0 for u, v in product(p, q))
 
 
 def _is_near(t: AlgebraicNumber, v: Track, a: Track, b: Track, d: QQ) -> bool:
-    """Whether the segment ab meets the square around v."""
+    """Return True if the segment ab intersects the square around v."""
     low, _, high, _ = corners = _square(v, d)
     if all(t.sign_of(f) >= 0 for f in (*gap(low, a), *gap(a, high))):
         return True

@@ -61,7 +61,7 @@ def edges_of(body: Body) -> list[tuple[int, int]]:
 
 
 def within_box(t: Instant, a: Track, b: Track, v: Track) -> bool:
-    """Whether v, on the line ab, is between a and b."""
+    """Return True if v, on the line ab, is between a and b."""
     for to, fro in zip(gap(v, a), gap(v, b), strict=True):
         to_a, to_b = t.sign_of(to), t.sign_of(fro)
         if to_a * to_b > 0:
@@ -70,12 +70,12 @@ def within_box(t: Instant, a: Track, b: Track, v: Track) -> bool:
 
 
 def on_segment(t: Instant, a: Track, b: Track, v: Track) -> bool:
-    """Whether v is on the closed segment ab."""
+    """Return True if v is on the closed segment ab."""
     return t.sign_of(orientation_polynomial(a, b, v)) == 0 and within_box(t, a, b, v)
 
 
 def segments_meet(t: Instant, a: Track, b: Track, c: Track, d: Track) -> bool:
-    """Whether the closed segments ab and cd share a point."""
+    """Return True if the closed segments ab and cd share a point."""
     signs = [
         t.sign_of(orientation_polynomial(*o)) for o in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))
     ]
@@ -90,7 +90,7 @@ def segments_meet(t: Instant, a: Track, b: Track, c: Track, d: Track) -> bool:
 
 
 def has_inside(t: Instant, body: Body, p: Tracks, other: Body, q: Tracks) -> bool:
-    """Whether a ring of another body is in a polygon whose edges it does not meet."""
+    """Return True if a ring of another body is in a polygon whose edges it does not touch."""
     return body.has_interior and any(contains(t, body, p, q[ring.start]) for ring in other.rings)
 
 
@@ -106,7 +106,7 @@ def contains(t: Instant, body: Body, p: Tracks, v: Track) -> bool:
 
 
 def meet_at(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
-    """Whether two bodies share a point."""
+    """Return True if two bodies share a point."""
     return (
         any(
             segments_meet(t, p[i], p[j], q[k], q[l])
@@ -223,7 +223,7 @@ def _excesses(a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> list[IntPoly]:
 
 
 def is_within(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> bool:
-    """Whether the squared distance is at most s at an algebraic time."""
+    """Return True if the squared distance is at most s at an algebraic time."""
     if meet_at(t, a, b, p, q):
         return True
     if any(t.sign_of(excess_of_vertices(u, v, s)) <= 0 for u, v in product(p, q)):

@@ -72,7 +72,7 @@ def new_contact(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | None:
 
 
 def overlap(a: Body, b: Body, t: QQ) -> bool:
-    """Whether two bodies overlap at a rational time."""
+    """Return True if two bodies overlap at a rational time."""
     p, q = _sheared(a._at(t), b._at(t))
     e = [(p[i], p[j]) for i, j in edges_of(a)]
     f = [(q[i], q[j]) for i, j in edges_of(b)]
@@ -102,7 +102,7 @@ def _crossing(e: Edge, f: Edge) -> QQ | None:
 
 
 def _is_point_on(e: list[Edge], f: list[Edge]) -> bool:
-    """Whether a body is a point, and on the boundary of another one: not in its interior.
+    """Return True if a body is a point, and on the boundary of another body: not in its interior.
 
     Where it is a vertex whose edges are on one side, a line through it meets none of these.
     """
@@ -125,7 +125,7 @@ def _lines(e: list[Edge], f: list[Edge]) -> Iterator[QQ]:
 
 
 def _overlap_at(x: QQ, a: Body, e: list[Edge], b: Body, f: list[Edge]) -> bool:
-    """Whether the bodies overlap on the vertical line at x."""
+    """Return True if the bodies overlap on the vertical line at x."""
     first, second = _section(x, a, e), _section(x, b, f)
     for (low, high), (least, most) in product(first, second):
         middle = max(low, least) + min(high, most)

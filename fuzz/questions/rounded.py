@@ -43,7 +43,7 @@ def rounded_pair(random: Random) -> Scene:
 
 
 def wrong_answer(random: Random, scene: Scene) -> str | None:
-    """What is not as defined about a rounded pair; None if all is."""
+    """Return a difference of a rounded pair from the definition; None without one."""
     a, b = scene.bodies
     start, end = scene._start, scene._end
     reach = a._radius + b._radius

@@ -39,7 +39,7 @@ MOST: Final = 4
 
 
 class Case(NamedTuple):
-    """What happens in a scene, and what is wrong with the bounds of its first contact."""
+    """Return the kind of a scene, and the fault of the bounds of its first contact."""
 
     kind: str
     fault: str | None
@@ -99,7 +99,7 @@ def _number(random: Random) -> Fraction:
 
 
 def case_of(scene: Scene) -> Case:
-    """Whether the true time is between the bounds, and these are near enough."""
+    """Return True if the true time is between the bounds, and these are near enough."""
     bounds = first_contact_enclosed(scene)
     truth = Truth(scene)
     try:
@@ -194,7 +194,7 @@ def _near(truth: Truth, errors: list[Real], t: float) -> set[Approach]:
 
 
 def _is_inner(truth: Truth, pair: Approach, t: Real, away: Real) -> bool:
-    """Whether the foot of a perpendicular is so far from the ends of an edge."""
+    """Return True if the foot of a perpendicular is so far from the ends of an edge."""
     p, q = (truth.bodies[pair.j].places(t)[k] for k in pair.ends)
     if p == q:
         return True

@@ -235,7 +235,7 @@ class Truth:
         return self.bodies[pair.i].radius + self.bodies[pair.j].radius
 
     def _is_on(self, pair: Approach, t: Real) -> bool:
-        """Whether the foot of the perpendicular is on the edge."""
+        """Return True if the foot of the perpendicular is on the edge."""
         p, q = (self.bodies[pair.j].places(t)[k] for k in pair.ends)
         v = self.bodies[pair.i].places(t)[pair.vertex]
         along = ((q - p).conjugate() * (v - p)).real
@@ -258,7 +258,7 @@ def _distance(a: _Turning, b: _Turning, p: Places, q: Places) -> float:
 
 
 def _overlap(a: _Turning, b: _Turning, p: Places, q: Places) -> bool:
-    """Whether edges cross, or one core contains a vertex of the other."""
+    """Return True if edges cross, or one core contains a vertex of the other."""
     for (i, j), (k, l) in product(a.edges, b.edges):
         if (
             _side(p[i], p[j], q[k]) * _side(p[i], p[j], q[l]) < 0

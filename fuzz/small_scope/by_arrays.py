@@ -32,7 +32,7 @@ class Verdict(NamedTuple):
 
     Attributes:
         seconds: its share of the processor time of the call.
-        fault: what is wrong with it; None if it is right.
+        fault: its fault; None if it is right.
     """
 
     seconds: float
@@ -40,7 +40,7 @@ class Verdict(NamedTuple):
 
 
 def suits(scene: Scene) -> bool:
-    """Whether a scene is a question for arrays: two rigid bodies that translate."""
+    """Return True if a scene is a question for arrays: two rigid bodies that translate."""
     return len(scene.bodies) == 2 and all(map(_translates, scene.bodies))
 
 
@@ -69,7 +69,7 @@ def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> lis
 
 
 def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -> str | None:
-    """What is wrong with the answer about a scene; None if nothing is."""
+    """Return the fault of the result for a scene; None if it is right."""
     if expected is None or not contacts.found[k]:
         if (expected is None) == (not contacts.found[k]):
             return None

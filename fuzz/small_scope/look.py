@@ -46,7 +46,7 @@ class Answer(NamedTuple):
         method: "auto", "pairs", "arrays", "after start", "normals", the name of a tiling, or
             "static" or "going on" and such a name.
         seconds: processor time.
-        fault: what is wrong with the answer; None if it is right.
+        fault: the fault of the result; None if it is right.
     """
 
     method: str
@@ -71,7 +71,7 @@ class Look(NamedTuple):
 
     @property
     def has_reference(self) -> bool:
-        """Whether the reference has answered."""
+        """Return True if the reference has a result."""
         return self.answers[0].method != REFERENCE
 
 
@@ -156,7 +156,7 @@ def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answe
 
 
 def _new_contact(scene: Scene, contact: Contact | None) -> str | None:
-    """Return what is wrong with the first new contact, from the planned one on if it is simple."""
+    """Return the fault of the first new contact, from the planned one on if it is simple."""
     if contact is not None and contact.time.is_rational and contact.time < scene.end:
         with suppress(InputError):  # a body that touches itself then
             scene = scene.since(contact.time.low)

@@ -119,7 +119,7 @@ def approaches(order: str, free: int, parts: Sequence[int]) -> list[Approach]:
 
 
 def _is_curved(step: Vector) -> bool:
-    """Whether it represents directions next to an axis, where parabolas begin."""
+    """Return True if it represents directions next to an axis, where parabolas begin."""
     return 8 in map(abs, step)
 
 

@@ -141,7 +141,7 @@ def _covered(polygon: Shape, p: Vector, sense: int) -> int:
 
 
 def disjoint(a: Shape, b: Shape, offset: Vector) -> bool:
-    """Whether two shapes neither touch nor overlap, a at an offset in half units."""
+    """Return True if two shapes neither touch nor overlap, a at an offset in half units."""
     return _meeting(_doubled(a), _doubled(b), offset) == 0
 
 

@@ -37,7 +37,7 @@ class Scope(Check):
     Attributes:
         proofs: whether proofs are checked, instead of answers compared.
         shrink: seconds for shrinking the first scene of a fault.
-        known: faults that have been reported, in this process: methods and what is wrong.
+        known: faults that have been reported, in this process: methods and the fault.
     """
 
     proofs: bool = False
@@ -48,7 +48,7 @@ class Scope(Check):
 
     @property
     def about(self) -> object:
-        """The sizes of the scope, and what is checked."""
+        """The sizes of the scope, and the checks."""
         return [sizes(), "with --proofs" if self.proofs else "without --proofs"]
 
     def wanted(self, counts: Counts) -> frozenset[tuple[str, str]] | None:

@@ -122,7 +122,7 @@ def _is_simple(shape: Shape) -> bool:
 
 
 def _folded(a: Vector, b: Vector, c: Vector) -> bool:
-    """Whether two edges, from a to b and from b to c, overlap."""
+    """Return True if two edges, from a to b and from b to c, overlap."""
     return _side(a, b, c) == 0 and (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) < 0
 
 
@@ -131,7 +131,7 @@ def _side(a: Vector, b: Vector, c: Vector) -> int:
 
 
 def on_segment(p: Vector, a: Vector, b: Vector) -> bool:
-    """Whether p lies on the closed segment ab."""
+    """Return True if p lies on the closed segment ab."""
     return (
         _side(a, b, p) == 0
         and min(a[0], b[0]) <= p[0] <= max(a[0], b[0])
@@ -140,14 +140,14 @@ def on_segment(p: Vector, a: Vector, b: Vector) -> bool:
 
 
 def meet(a: Vector, b: Vector, c: Vector, d: Vector) -> bool:
-    """Whether the closed segments ab and cd share a point."""
+    """Return True if the closed segments ab and cd share a point."""
     if _side(a, b, c) * _side(a, b, d) < 0 and _side(c, d, a) * _side(c, d, b) < 0:
         return True
     return on_segment(c, a, b) or on_segment(d, a, b) or on_segment(a, c, d) or on_segment(b, c, d)
 
 
 def contains(vertices: Sequence[Vector], p: Vector) -> bool:
-    """Whether p is inside a simple polygon; undefined for points of its boundary."""
+    """Return True if p is inside a simple polygon; undefined for points of its boundary."""
     inside = False
     for a, b in _around(vertices):
         if (a[1] > p[1]) != (b[1] > p[1]) and (_side(a, b, p) > 0) == (b[1] > a[1]):

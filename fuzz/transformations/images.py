@@ -234,7 +234,7 @@ def _separated(scene: Scene, random: Random) -> Image | None:
 
 
 def _allowed(make: Callable[[Scene, Random], Image | None]) -> Callable[..., Image | None]:
-    """Return a transformation that gives None for what a scene cannot hold."""
+    """Return a transformation that gives None if no scene can hold the result."""
 
     def image(scene: Scene, random: Random) -> Image | None:
         try:

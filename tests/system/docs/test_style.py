@@ -1,4 +1,4 @@
-"""The language of the package: patterns that readers stumble over only become rarer.
+"""The language of package, benchmarks and fuzzer: patterns that confuse readers become rarer.
 
 `python tests/system/docs/test_style.py` writes the counts of today to tests/data/style.json.
 """
@@ -14,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
 STORED = ROOT / "tests" / "data" / "style.json"
+ROOTS = ("exactpt", "benchmarks", "fuzz")
 PATTERNS = {
     "a first line with 'Whether': Return True if": r"\AWhether\b",
     "a relative clause without its noun (what is ...)": (
@@ -50,7 +51,7 @@ def texts_of(path):
 def counts():
     """For each package and pattern, how often it occurs; those that do not occur are left out."""
     found = {}
-    for path in sorted((ROOT / "exactpt").rglob("*.py")):
+    for path in sorted(path for root in ROOTS for path in (ROOT / root).rglob("*.py")):
         package = ".".join(path.relative_to(ROOT).parts[:2]).removesuffix(".py")
         counter = found.setdefault(package, Counter())
         for text in texts_of(path):
