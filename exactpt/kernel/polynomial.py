@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import lcm
 from typing import TYPE_CHECKING, ClassVar, Final, final, overload
@@ -137,6 +137,9 @@ class Polynomial:
         """Return the value at a rational number, or the composition with a polynomial."""
         if not isinstance(t, Polynomial):
             return fraction(self._at(rational(t)))
+        if t.degree <= 1:
+            origin, step, *_ = *t._coefficients, QQ(0), QQ(0)
+            return Polynomial._of(substituted(self._coefficients, origin, step))
         result = ZERO
         for c in reversed(self._coefficients):
             result = result * t + c
@@ -282,6 +285,23 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
     if isinstance(value, str) or hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):
         return Polynomial([value])
     raise InputError(f"not a polynomial: {value!r}")
+
+
+def substituted(f: Sequence[QQ], origin: QQ, step: QQ) -> list[QQ]:
+    """Return the coefficients of f(origin + step * t)."""
+    moved = list(f)
+    n = len(moved)
+    if origin:
+        for i in range(n - 1):
+            if n > LONG:
+                check_budget()
+            for j in range(n - 2, i - 1, -1):
+                moved[j] += origin * moved[j + 1]
+    factor = QQ(1)
+    for i in range(n):
+        moved[i] *= factor
+        factor *= step
+    return moved
 
 
 def _number(t: AlgebraicNumber | Rational) -> AlgebraicNumber:

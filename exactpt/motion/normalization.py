@@ -12,8 +12,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, final
 
-from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
+from exactpt.kernel.polynomial import substituted
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -73,7 +73,7 @@ class Normalization:
 
     def in_time(self, f: list[QQ]) -> list[QQ]:
         """Return a polynomial in the scene's time as one in normalised time."""
-        return _substituted(f, self.origin, power_of_two(self.time_scale))
+        return substituted(f, self.origin, power_of_two(self.time_scale))
 
     def moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
         """Return the exact normalised coefficients of a trajectory, up to a common factor."""
@@ -99,23 +99,6 @@ def combined(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:
     f = f + [QQ(0)] * (size - len(f))
     g = g + [QQ(0)] * (size - len(g))
     return [(x + a * y) * factor for x, y in zip(f, g, strict=True)]
-
-
-def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
-    """f(origin + step * t)."""
-    f = f[:]
-    n = len(f)
-    if origin:
-        for i in range(n - 1):
-            if n > LONG:
-                check_budget()
-            for j in range(n - 2, i - 1, -1):
-                f[j] += origin * f[j + 1]
-    factor = QQ(1)
-    for i in range(n):
-        f[i] *= factor
-        factor *= step
-    return f
 
 
 def normalization_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Normalization:

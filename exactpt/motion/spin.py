@@ -37,6 +37,8 @@ _MOST: Final = 100_000
 _DEGREES: Final = range(1, 32, 2)
 _SHORTEST: Final = 1 / 32
 """Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""
+_COARSE: Final = 40
+"""Bits that the tangent in doubles certainly has."""
 
 Vector = tuple[QQ, QQ]
 
@@ -205,6 +207,7 @@ class _Turns:
             k = len(tangent)
             tangent.append(sum((tangent[i] * tangent[k - 1 - i] for i in range(k)), QQ(0)) / k)
         self.tangent = tangent[:degree]
+        self._known: dict[QQ, list[QQ]] = {}
 
     def between(self, start: QQ, end: QQ, step: QQ) -> list[tuple[QQ | None, Polynomial, Vector]]:
         """Until when, half turn and orientation of each piece."""
@@ -220,12 +223,19 @@ class _Turns:
 
     def _half_turn(self, a: QQ, b: QQ, u: Vector, v: Vector) -> Polynomial:
         """Return the half turn that is 0 at a, and leads from u to v at b."""
+        series = self._series(b - a)
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + u[0] * v[0] + u[1] * v[1])
-        half = self.omega * (b - a) / 2
-        bits = bits_for(self.error, QQ(0))
-        series = [rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
-        series.append(whole - sum(series, QQ(0)))
-        return Polynomial(series)(Polynomial([-a / (b - a), 1 / (b - a)]))
+        last = whole - sum(series, QQ(0))
+        return Polynomial._of([*series, last])(Polynomial([-a / (b - a), 1 / (b - a)]))
+
+    def _series(self, duration: QQ) -> list[QQ]:
+        """Return the coefficients of the tangent, but for the last, of the part of a duration."""
+        known = self._known.get(duration)
+        if known is None:
+            half, bits = self.omega * duration / 2, bits_for(self.error, QQ(0))
+            known = [rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
+            self._known[duration] = known
+        return known
 
 
 def vector_near(angle: QQ, error: QQ) -> Vector:
@@ -242,7 +252,12 @@ def vector_near(angle: QQ, error: QQ) -> Vector:
 
 def tangent_near(angle: QQ, bits: int) -> QQ:
     """Return a rational number near the tangent of an angle of less than pi / 4; no proof."""
-    m = rational(math.tan(nearest_float(angle)))
+    near = math.tan(nearest_float(angle))
+    if bits <= _COARSE and abs(near * 2.0**bits % 1.0 - 0.5) > 1 / 16:
+        return rounded(
+            rational(near), bits
+        )  # as the result of Newton's method, not half a unit off
+    m = rational(near)
     for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
         m = rounded(m - (atan_bounds(m, bits + 8)[0] - angle) * (1 + m * m), bits + 8)
     return rounded(m, bits)

@@ -38,10 +38,11 @@ from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Touch
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.far_spins import bodies_near_others
 from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, scene_of
 
 FEW: Final = 64
 """Number of pairs that are compared exactly before a tiling would have been built."""
@@ -77,11 +78,18 @@ class PairsSearch:
         ignoring: Iterable[Collection[str]] = (),
         ignoring_self: Collection[str] = (),
     ) -> None:
+        self._given = scene
+        group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
+        if not exact_only:
+            near = bodies_near_others(scene)
+            if len(near) < len(scene.bodies):
+                group = group[near]
+                scene = scene_of([scene.bodies[i] for i in near], scene._start, scene._end)
         self._scene = scene
+        self._group = group
         self._exact_only = exact_only
         self._deadline = deadline_in(max_seconds)
         self._counters = Counters()
-        self._group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
         has_radius = [body._radius > 0 for body in scene.bodies]
         self._has_radius: NDArray[np.bool_] = np.array(has_radius, dtype=np.bool_)
         alone = [body.name in ignoring_self for body in scene.bodies]
@@ -93,8 +101,8 @@ class PairsSearch:
     def stats(self) -> dict[str, object]:
         """The counts of the search so far, see docs/format.md."""
         return {
-            "bodies": len(self._scene.bodies),
-            "vertices": self._scene.vertex_count,
+            "bodies": len(self._given.bodies),
+            "vertices": self._given.vertex_count,
             "events": 0,
             "certificates": self.certificates,
             "skipped": 0,

@@ -12,6 +12,7 @@ import exactpt
 from exactpt import Body, InputError, Pieces, Rigid, Scene, Spin, Translation
 from exactpt.kernel.arctangents import atan_bounds, pi_bounds
 from exactpt.kernel.numbers import QQ
+from exactpt.motion import turned_angle
 from exactpt.motion.turned_angle import is_within
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
@@ -183,3 +184,37 @@ def test_a_spin_has_half_turns_of_the_given_degree():
     for degree in (0, 2, -1, 33, True, "1", 10**5000):
         with pytest.raises(InputError, match="the degree of a half turn is odd, from 1 to 31"):
             Spin(1, time=(0, 20), degree=degree)
+
+
+def test_pieces_of_one_duration_have_one_proof(monkeypatch):
+    """Each piece had bounds of its own."""
+    bounds, ranges = [], turned_angle._range_of
+    monkeypatch.setattr(turned_angle, "_range_of", lambda *a: bounds.append(1) or ranges(*a))
+    assert len(Spin(1, time=(0, 20)).pieces) == 130
+    assert len(bounds) <= 4
+
+
+def test_what_is_proved_of_many_pieces_is_proved_of_each(monkeypatch):
+    spins = [Spin("5/3", time=(-1, 1), error=error) for error in ("1/10", "1/500")]
+    errors = [(spin, spin._error * QQ(k, 16)) for spin in spins for k in range(8, 17)]
+    many = [is_within(spin, QQ(5, 3), error) for spin, error in errors]
+    within = turned_angle._are_within
+
+    def each(group, starts, omega, error):
+        return all(within(group, [start], omega, error) for start in starts)
+
+    monkeypatch.setattr(turned_angle, "_are_within", each)
+    assert many == [is_within(spin, QQ(5, 3), error) for spin, error in errors]
+    assert len(set(many)) == 2
+
+
+@pytest.mark.parametrize("by", [QQ(1, 10**4), QQ(-1, 10**4)])
+def test_one_piece_that_differs_in_its_last_coefficient_is_refused(by):
+    spin = Spin(1, time=(0, 3))
+    pieces = list(spin.pieces)
+    until, turn = pieces[7]
+    begin = pieces[6][0]
+    more = exactpt.Polynomial([-begin, 1]) ** 3 * (by / (until - begin) ** 3)
+    pieces[7] = until, Rigid(turn.half_turn + more, orientation=turn.orientation)
+    assert is_within(Pieces(spin.pieces), QQ(1), QQ(1, 10**6))
+    assert not is_within(Pieces(pieces), QQ(1), QQ(1, 10**6))
