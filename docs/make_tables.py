@@ -1,11 +1,13 @@
 """Figures of the pages from the files that benchmarks write: ``python docs/make_tables.py``.
 
 To measure anew: ``python -m benchmarks NAME -o docs/data/NAME``, then this script, in a checkout
-without changes of the package. FOLDER-compiled is the same command after ``make compiled``.
+without changes of the package. Where machine.txt says "compiled", ``make compiled`` was before;
+benchmarks that are shown in both builds have a second folder NAME-compiled.
 
 A page, or README, has on a line of its own ``<!-- table FOLDER/FILE.csv: VIEW -->``; FOLDER is in
 docs/data. The lines from there to ``<!-- end of table -->`` are replaced by the table, and by the
-date, the commit and the machine of FOLDER/machine.txt. ``<!-- value FOLDER/FILE.csv: CELL -->``,
+date, the commit and the machine of FOLDER/machine.txt (but with ``rows`` for ``table``: where the
+page links to a table that has them). ``<!-- value FOLDER/FILE.csv: CELL -->``,
 in a line, is followed by one cell up to ``<!-- end -->``. Pictures are shown where benchmarks
 write them. A file of docs/data that no page names is removed.
 
@@ -27,7 +29,7 @@ DOCS: Final = Path(__file__).parent
 Row: TypeAlias = dict[str, str]
 
 TABLE: Final = re.compile(
-    r"(<!-- table ([^:\n]+): ([^\n]+) -->\n).*?(<!-- end of table -->)", re.DOTALL
+    r"(<!-- (table|rows) ([^:\n]+): ([^\n]+) -->\n).*?(<!-- end of table -->)", re.DOTALL
 )
 VALUE: Final = re.compile(r"(<!-- value ([^:\n]+): ([^\n]+?) -->)[^\n]*?(<!-- end -->)")
 PICTURE: Final = re.compile(r"\]\((?:docs/)?data/([^)]+)\)")
@@ -40,14 +42,14 @@ def pages() -> list[Path]:
 
 def filled(page: str) -> str:
     """Return a page with its marked tables and values made anew."""
-    page = TABLE.sub(lambda m: f"{m[1]}{_table(m[2], m[3])}\n{m[4]}", page)
+    page = TABLE.sub(lambda m: f"{m[1]}{_table(m[3], m[4], dated=m[2] == 'table')}\n{m[5]}", page)
     return VALUE.sub(lambda m: f"{m[1]}{_value(m[2], m[3])}{m[4]}", page)
 
 
 def named(page: str) -> set[Path]:
     """Return the files of docs/data that a page names."""
-    marked = [m[2] for pattern in (TABLE, VALUE) for m in pattern.finditer(page)]
-    return {DOCS / "data" / name for name in [*marked, *PICTURE.findall(page)]}
+    marked = {m[3] for m in TABLE.finditer(page)} | {m[2] for m in VALUE.finditer(page)}
+    return {DOCS / "data" / name for name in (*marked, *PICTURE.findall(page))}
 
 
 def _value(name: str, view: str) -> str:
@@ -66,7 +68,7 @@ def _selected(path: Path, view: str) -> tuple[str, list[Row]]:
     return view, found
 
 
-def _table(name: str, view: str) -> str:
+def _table(name: str, view: str, *, dated: bool) -> str:
     path = DOCS / "data" / name
     view, found = _selected(path, view)
     lines = _pivot(view, found) if " across " in view else _columns(view, found)
@@ -76,7 +78,9 @@ def _table(name: str, view: str) -> str:
     ]
     rule = ["---" if left else "---:" for left in words]
     text = [f"| {' | '.join(line)} |" for line in (lines[0], rule, *lines[1:])]
-    return "\n".join([*text, "", _measured(path.parent / "machine.txt")])
+    if dated:
+        text += ["", _measured(path.parent / "machine.txt")]
+    return "\n".join(text)
 
 
 def _columns(view: str, found: list[Row]) -> list[list[str]]:
@@ -108,7 +112,7 @@ def _pivot(view: str, found: list[Row]) -> list[list[str]]:
 def _cell(view: str, row: Row) -> str:
     """Return the text for a column, a share or a template; one 0 where a template has only such."""
     if "{" in view:
-        text = re.sub(r"\{([^}]+)\}", lambda m: _cell(m[1], row), view).removesuffix(", ")
+        text = re.sub(r"\{([^}]+)\}", lambda m: _cell(m[1], row), view).rstrip(", ")
         return "0" if re.fullmatch(r"0( / 0)*|0.0 %( / 0.0 %)*", text) else text
     return _shown(row[view]) if view in row else _percent(row[view.removesuffix(" %")])
 
