@@ -20,7 +20,7 @@ free face is reflex; and a corner of angle 0 at a, between m and b, has collapse
 of these cases the orientation (previous, here, next) around a free face counts as
 *negative*: **zero counts as -1**. The code uses nothing else of step 2.
 
-**What the perturbation preserves, and what it does not.** Let g be the function of a
+**Properties that the perturbation preserves.** Let g be the function of a
 certificate, and g + eps h + ... that of the perturbed vertices.
 
 - Where g is not identically zero, the sign just after a time is that of g, and likewise just

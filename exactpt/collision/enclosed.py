@@ -137,7 +137,7 @@ class _Search:
         self._start, self._end = scene._start, scene._end
         self._errors = [displacement(body, self._start, self._end) for body in scene.bodies]
         self._contact = scene._start  # a rational just after the first contact of the given bodies
-        self._passing: list[tuple[Body, Body, int, QQ]] = []  # the points on edges then
+        self._passing: list[tuple[Body, Body, int, QQ]] = []  # the points on edges at that time
 
     def run(self) -> EnclosedContact | None:
         exact = self._known()

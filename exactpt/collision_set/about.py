@@ -1,4 +1,4 @@
-"""The texts in the set: what it is, how it is read and cited, and its licence."""
+"""The texts in the set: its description, how it is read and cited, and its licence."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def ccd_query(passage: Passage, *, touches: bool) -> str:
     """Eight lines "x, y, z, result" of an edge-edge query, each number as numerator, denominator.
 
     The ends of the first edge and of the second one at the time 0, then at the time 1. The first
-    one is the vertical segment between z = -1 and z = 1 at the point, the other one is the
+    one is the vertical segment between z = -1 and z = 1 at the point, the second one is the
     segment, at z = 0: they touch if and only if the point is on the segment. Between the two times
     every end moves straight.
     """

@@ -72,7 +72,7 @@ class _Output(io.RawIOBase):
 
     @property
     def sha256(self) -> str:
-        """The checksum of what was written."""
+        """The checksum of the lines written."""
         return self._hash.hexdigest()
 
     def close(self) -> None:

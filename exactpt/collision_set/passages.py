@@ -203,7 +203,7 @@ def polynomial(passage: Passage) -> tuple[int, int, int]:
 
 
 def _is_once_a_point(passage: Passage) -> bool:
-    """Whether the segment's ends coincide at a time of [0, 1]."""
+    """Return True if the segment's ends coincide at a time of [0, 1]."""
     u, v = (minus(c[2], c[1]) for c in (passage.start, passage.end))
     # u (1 - t) + v t vanishes for a t in [0, 1] iff u and v are opposite, or one is 0.
     return cross(u, v) == 0 and u[0] * v[0] + u[1] * v[1] <= 0

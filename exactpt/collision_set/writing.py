@@ -29,7 +29,7 @@ _MANIFEST: Final = "SHA256SUMS"
 
 
 class Summary(NamedTuple):
-    """What was written.
+    """The set that was written.
 
     Attributes:
         files: the number of files beside the manifest.
@@ -104,7 +104,7 @@ def _each(place: Path, parts: Sequence[Part], jobs: int) -> Iterator[list[Writte
 
 @contextmanager
 def _written_beside(folder: Path) -> Iterator[Path]:
-    """A new folder beside another one, whose place it takes at the end."""
+    """A new folder beside a folder whose place it takes at the end."""
     target = folder.resolve()
     place = target.with_name(f".exactpt-{secrets.token_hex(8)}")
     try:

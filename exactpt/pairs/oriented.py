@@ -95,7 +95,7 @@ def _across(a: Floats, b: Floats, low: Floats, high: Floats) -> None:
     """Narrow times, in place, to those at which two rectangles overlap along n across the first.
 
     At such a time, |n . (z + w t)| <= R, where z is the difference of the m + c, w that of the v,
-    and R the sum of the reaches and of what the rectangles take up on the axis: T of the first;
+    and R the sum of the reaches and of the extents of the rectangles on the axis: T of the first;
     T |d . d'| + S |n . d'| of the second, of which the products are off by at most 4U + `TINY`.
     As |nx| + |ny| < 2, n . z is off by at most 2 of the errors of c, and 4U times the sum of what
     z is made of; n . w is off by 2 of the errors of v, 4U (|wx| + |wy|) and `TINY`. A double that

@@ -19,7 +19,7 @@ from exactpt.motion.track import Track, dot, vector
 
 
 class TouchPoint(NamedTuple):
-    """The point and the unit normal of a touch; both have a denominator that is positive then.
+    """The point and the unit normal of a touch, with denominators that are positive at its time.
 
     Attributes:
         x, y, w: the point (x / w, y / w).

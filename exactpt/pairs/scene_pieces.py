@@ -1,7 +1,7 @@
 """The motion pieces of a scene in linear motion, with their boxes, made when they are needed.
 
 A body becomes a piece, with the rationals and lists that exact decisions need, when it comes near
-another one; until then, doubles in arrays are enough where these are exact. The box of a rounded
+another body; until then, doubles in arrays are enough where these are exact. The box of a rounded
 body is grown.
 """
 

@@ -20,7 +20,7 @@ def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: No
     Args:
         time: within the time span.
         names: triples or pairs of vertices whose orientation or difference of abscissas may
-            vanish then, each written with its least vertex first; if none does, the coefficients
+            vanish at it, each written with its least vertex first; if none does, the coefficients
             of a polynomial are written.
         nodes: the vertices of the scene.
     """

@@ -295,7 +295,7 @@ class Scene:
 
         Raises:
             InputError: if the start is not before the end, or a polygon or chain is not simple
-                then.
+                at the start.
         """
         first = max(rational(start), self._start)
         if first >= self._end:
