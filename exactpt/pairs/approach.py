@@ -18,9 +18,9 @@ from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.piece_pairs import two_bodies
-from exactpt.pairs.pieces import ContactDistance, MotionPiece, linear_pieces
+from exactpt.pairs.pieces import ContactDistance, MotionPiece
 from exactpt.pairs.rational import Earliest
-from exactpt.pairs.search import first_among_pieces
+from exactpt.pairs.search import first_among_pieces, scene_pieces_if_linear
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
@@ -231,16 +231,18 @@ def _euclidean(scene: Scene, squared: QQ) -> Near | None:
         return ContactDistance.of(limit(a.body, b.body), root) if root else None
 
     reach = [most / 2 + r for r in radii]
-    near = near_at_start(scene, reach, np.not_equal)
+    pieces = scene_pieces_if_linear(scene, enclosing_floats(most / 2)[1])
+    if pieces is None:
+        near: Iterable[tuple[int, int]] = near_at_start(scene, reach, np.not_equal)
+    else:
+        near = pieces.near_at_start(distance)
     at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
     if at_start:
         return AlgebraicNumber(scene._start), at_start
-    pieces = linear_pieces(scene)
     if pieces is None:
         found = ApproachSearch(scene, limit, reach).run()
     else:
-        margin = enclosing_floats(most / 2)[1]
-        found = first_among_pieces(pieces, scene._start, scene._end, distance, margin)
+        found = first_among_pieces(pieces, distance)
     if found is None:
         return None
     return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]

@@ -68,13 +68,6 @@ def contact_distance(a: MotionPiece, b: MotionPiece) -> ContactDistance | None:
     return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
 
 
-def window_of(a: MotionPiece, b: MotionPiece, low: float, high: float) -> tuple[float, float]:
-    """Return the `window` of the boxes of two pieces within their contact distance."""
-    distance = contact_distance(a, b)
-    nearest = 0.0 if distance is None else distance.nearest
-    return window(a.straight, b.straight, low, high, nearest)
-
-
 @final
 class ScenePieces:
     """Motion pieces of bodies, of which pairs are compared.
@@ -110,8 +103,11 @@ class ScenePieces:
 
         return cls(pieces, start, end, PieceBoxes.of(pieces, margin))
 
-    def near_at_start(self) -> list[tuple[int, int]]:
-        """Return the pairs i < j of bodies whose boxes intersect at the start."""
+    def near_at_start(self, distance: Distance = contact_distance) -> list[tuple[int, int]]:
+        """Return the pairs i < j of bodies whose boxes intersect at the start.
+
+        If the boxes are not grown, these are the boxes of few pieces: they are within a distance.
+        """
         if not isinstance(self._pairs, Sequence):
             from exactpt.pairs.boxes import pairs_at
 
@@ -119,8 +115,14 @@ class ScenePieces:
         low, high = enclosing_floats(self._start)
         two = ((self._pieces[i], self._pieces[j]) for time, i, j in self._pairs if time <= high)
         begin = [(a, b) for a, b in two if a.start == b.start == self._start]
-        windows = ((a.body, b.body, window_of(a, b, low, high)) for a, b in begin)
-        return [(i, j) for i, j, (enter, leave) in windows if not enter > leave]
+        near = []
+        for a, b in begin:
+            d = distance(a, b)
+            reach = 0.0 if d is None else d.nearest
+            enter, leave = window(a.straight, b.straight, low, high, reach)
+            if not enter > leave:
+                near.append((a.body, b.body))
+        return near
 
     def near(
         self, counts: Callable[[int, int], bool] = operator.ne

@@ -40,12 +40,17 @@ class _OnDemand(dict[int, MotionPiece]):
         return piece
 
 
-def pieces_on_demand(scene: Scene) -> ScenePieces | None:
-    """Return the pieces of a scene; None unless all are linear, small and exact in doubles."""
+def pieces_on_demand(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
+    """Return the pieces of a scene; None unless all are linear, small and exact in doubles.
+
+    Their boxes are grown by a margin.
+    """
     bodies, start, end = scene.bodies, scene._start, scene._end
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is None:
         return None
+    if margin:
+        numbers[:, 8] = np.nextafter(numbers[:, 8] + margin, np.inf)
     numbers[:, 11], numbers[:, 12] = enclosing_floats(start)[0], enclosing_floats(end)[1]
 
     def outline(k: int) -> Outline:

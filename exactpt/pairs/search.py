@@ -147,35 +147,31 @@ def pair_search(
     return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
 
 
-def scene_pieces_if_linear(scene: Scene) -> ScenePieces | None:
-    """Return the pieces of all bodies; None unless all of them move straight and are not large."""
+def scene_pieces_if_linear(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
+    """Return the pieces of all bodies; None unless all of them move straight and are not large.
+
+    If they are more than a few, their boxes are grown by a margin.
+    """
     if len(scene.bodies) > FEW:
         from exactpt.pairs.scene_pieces import pieces_on_demand
 
-        pieces = pieces_on_demand(scene)
+        pieces = pieces_on_demand(scene, margin)
         if pieces is not None:
             return pieces
     linear = linear_pieces(scene)
-    return None if linear is None else ScenePieces.of(linear, scene._start, scene._end)
+    return None if linear is None else ScenePieces.of(linear, scene._start, scene._end, margin)
 
 
 def first_among_pieces(
-    pieces: Sequence[MotionPiece],
-    start: QQ,
-    end: QQ,
-    distance: Distance = contact_distance,
-    margin: float = 0.0,
+    pieces: ScenePieces, distance: Distance = contact_distance
 ) -> LinearContact | None:
-    """Return the first contact in (start, end] of bodies that are disjoint at the start.
+    """Return the first contact after the start of bodies that are disjoint at the start.
 
     Args:
-        pieces: of all bodies.
-        start: the start.
-        end: the end.
+        pieces: of all bodies, their boxes grown by at least half of the distance less the radii.
         distance: the distance of the cores at which bodies touch.
-        margin: at least half of the distance less the sum of the radii.
     """
-    return _Search(distance).run(ScenePieces.of(pieces, start, end, margin).near())
+    return _Search(distance).run(pieces.near())
 
 
 class _Search:

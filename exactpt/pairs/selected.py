@@ -21,7 +21,7 @@ from exactpt.motion.track import Touch, renumbered
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.pieces import MotionPiece, linear_pieces
+from exactpt.pairs.pieces import MotionPiece, ScenePieces, linear_pieces
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.renewed import new_contact_time
 from exactpt.pairs.search import first_among_pieces
@@ -170,7 +170,7 @@ class SelectedSearch:
             return None
         if self._pieces is not None:
             pieces = [piece for i in pair for piece in self._pieces[i]]
-            met = first_among_pieces(pieces, scene._start, until)
+            met = first_among_pieces(ScenePieces.of(pieces, scene._start, until))
             return None if met is None else (met.number, met.touches)
         part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []

@@ -151,3 +151,33 @@ def test_midpoints_of_doubles(x):
     assert nearest_square_root(QQ(middle**2 - middle**2 / 2**200)) == x
     assert nearest_square_root(QQ(middle**2 + middle**2 / 2**200)) == above
     assert nearest_square_root(QQ(middle**2)) in {x, above}
+
+
+def test_bodies_far_from_each_other_have_no_exact_place_at_the_start(monkeypatch):
+    """Boxes in doubles decide which pairs are compared there: 200 exact bodies cost more."""
+    bodies = [
+        Body(f"b{i}", [(9 * i, 0), (9 * i + 2, 0.5), (9 * i + 1, 2)], Translation([0, -i % 3 / 8]))
+        for i in range(200)
+    ]
+    placed, at = [], Body._at
+    monkeypatch.setattr(Body, "_at", lambda body, time: placed.append(body) or at(body, time))
+
+    found = first_within(Scene(bodies, (0, 10)), distance=6, norm="euclidean")
+
+    assert found is not None
+    assert not placed
+
+
+@pytest.mark.parametrize("count", [2, 40])
+@pytest.mark.parametrize("radius", [0, Fraction(1, 2)])
+def test_within_a_distance_at_the_start_among_few_and_many(count, radius):
+    """Boxes are grown by half of the distance and the radius, or are within both."""
+    bodies = [
+        Body(f"b{i}", [(5 * i, 0)], Translation([0, -i]), radius=radius) for i in range(count)
+    ]
+    scene = Scene(bodies, (3, 9))
+
+    for d, time in ((2, 3), (1, 4), (Fraction(1, 2) + radius, Fraction(9, 2) - radius)):
+        found = first_within(scene, distance=d - 2 * radius, norm="euclidean")
+        assert found.time == time
+        assert len(found.pairs) == count - 1
