@@ -75,10 +75,13 @@ def cast(plane: Subdivision, ray: Ray) -> Hit | None:
     Every node belongs to a body, so a ray can only cross the interior of a diagonal without
     hitting a body.
     """
-    spot, _ = find(plane, ray.origin)
-    place = place_of(plane, spot)
-    if place.body is not None:
-        return Hit(place.body, place.vertex, place.edge, in_fractions(ray.origin), Fraction(0), 0)
+    spot = Spot(On.FACE, OUTSIDE)
+    if not ray.begins_outside():
+        spot, _ = find(plane, ray.origin)
+        place = place_of(plane, spot)
+        if place.body is not None:
+            start = in_fractions(ray.origin)
+            return Hit(place.body, place.vertex, place.edge, start, Fraction(0), 0)
     if not plane.points:
         return None
     if OUTSIDE not in plane.cycles:

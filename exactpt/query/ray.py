@@ -17,10 +17,10 @@ errors of the coordinates (U M) and of the operations on numbers of size 2 M, x 
 than (B / g) |bx - ax| + 20 U M. So t, with 8 U M S for its own operations and the direction, is off
 by less than S (B / g) (|bx - ax| + |by - ay|) + 28 U M S, of which the last term is below 3 B.
 
-A goal is to the left of the edge from a to b if (bx - ax) (gy - ay) - (by - ay) (gx - ax) > 0. Let
-M be at least the size of its coordinates, too. A difference is off by less than 5 U M, a product of
-two of size 2 M by 20 U M^2 and its rounding by 4 U M^2, and their difference by 8 U M^2: in all,
-less than 64 U M^2.
+A goal, or the origin, is to the left of the edge from a to b if
+(bx - ax) (gy - ay) - (by - ay) (gx - ax) > 0. Let M be at least the size of its coordinates, too. A
+difference is off by less than 5 U M, a product of two of size 2 M by 20 U M^2 and its rounding by
+4 U M^2, and their difference by 8 U M^2: in all, less than 64 U M^2.
 
 SLACK covers terms of second order, TINY underflow, since all numbers are below 2^400.
 """
@@ -76,7 +76,7 @@ class Ray:
     """
 
     __slots__ = (
-        "_goal", "_goal_off", "_near", "_norm", "_plane", "_sides", "direction", "goal", "line",
+        "_edge_off", "_goal", "_near", "_plane", "_sides", "direction", "goal", "line",
         "off", "origin",
     )  # fmt: skip
 
@@ -86,7 +86,6 @@ class Ray:
         self.origin = origin
         self.direction = direction
         self.goal = goal
-        self._norm = direction[0] * direction[0] + direction[1] * direction[1]
         self._plane = plane
         self._sides: dict[VertexId, int] = {}
         ox, oy = plane.nodes.of(origin)
@@ -98,7 +97,7 @@ class Ray:
         self.off = 10.0 * U * size * length * SLACK + TINY if in_range else math.inf
         self._goal = gx, gy = (ox, oy) if goal is None else plane.nodes.of(goal)
         size = max(size, abs(gx), abs(gy))
-        self._goal_off = 64.0 * U * size * size * SLACK + TINY if size < _LARGEST else math.inf
+        self._edge_off = 64.0 * U * size * size * SLACK + TINY if size < _LARGEST else math.inf
 
     @classmethod
     def between(cls, plane: Subdivision, start: Point, goal: Point) -> Ray:
@@ -146,13 +145,28 @@ class Ray:
         """Return the same for an edge that the ray crosses, from its left side to its right one."""
         if self.goal is None:
             return -1
+        return self._side_of_edge(h, self.goal, self._goal)
+
+    def begins_outside(self) -> bool:
+        """Return True if the origin is outside of the hull; False if it is not, or not seen to be.
+
+        It is if it is to the left of an edge of the face there.
+        """
+        hull = self._plane.hull
+        return hull is not None and self.begins_before(hull.edge_before(*self._near))
+
+    def begins_before(self, h: HalfEdge) -> bool:
+        """Return True if the origin is to the left of an edge."""
+        return self._side_of_edge(h, self.origin, self._near) > 0
+
+    def _side_of_edge(self, h: HalfEdge, point: Point, near: tuple[float, float]) -> int:
         origin, nodes = self._plane.map.origin, self._plane.nodes
-        u, v, (gx, gy) = origin[h], origin[h ^ 1], self._goal
+        u, v, (x, y) = origin[h], origin[h ^ 1], near
         ax, ay = nodes.xs[u], nodes.ys[u]
-        value = (nodes.xs[v] - ax) * (gy - ay) - (nodes.ys[v] - ay) * (gx - ax)
-        if abs(value) > self._goal_off:
+        value = (nodes.xs[v] - ax) * (y - ay) - (nodes.ys[v] - ay) * (x - ax)
+        if abs(value) > self._edge_off:
             return 1 if value > 0.0 else -1
-        return orientation(self._plane.points[u], self._plane.points[v], self.goal)
+        return orientation(self._plane.points[u], self._plane.points[v], point)
 
     def parameter(self, spot: Spot) -> QQ:
         """Return the parameter at a node of the ray, or an edge not parallel to it; 0 in a face."""
@@ -166,7 +180,7 @@ class Ray:
     def reaches(self, node: VertexId) -> QQ:
         """Return the parameter of a node on the line of the ray."""
         (x, y), (ox, oy), (dx, dy) = self._plane.points[node], self.origin, self.direction
-        return ((x - ox) * dx + (y - oy) * dy) / self._norm
+        return ((x - ox) * dx + (y - oy) * dy) / (dx * dx + dy * dy)
 
     def crosses(self, u: VertexId, v: VertexId) -> QQ:
         """Return the parameter at which the line of the ray crosses the edge from u to v."""

@@ -9,7 +9,7 @@ free space, the interiors of the bodies, and the exterior of the convex hull.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from functools import cmp_to_key
+from functools import cached_property, cmp_to_key
 from itertools import pairwise
 from typing import Final, TypeAlias, final
 
@@ -22,6 +22,7 @@ from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.body import Body
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
+from exactpt.query.hull import Hull
 from exactpt.query.nodes import Nodes
 
 OUTSIDE: Final = -1
@@ -108,6 +109,11 @@ class Subdivision:
                 [(*self.place(twin(h)), h) for h in (cycle[-1], *cycle)] for cycle in cycles
             ]
         return known
+
+    @cached_property
+    def hull(self) -> Hull | None:
+        """The hull of the nodes; None without any edges."""
+        return Hull(self.outline(OUTSIDE)[0]) if OUTSIDE in self.cycles else None
 
     def edge_number(self, h: HalfEdge) -> int:
         """Return the number of the edge of a body that a half-edge belongs to."""

@@ -85,8 +85,9 @@ def _across_faces(
         the edge at which `follow` ends; -1 if doubles do not decide the step through the face.
     """
     (dx, dy, c), off, crossed = ray.line, ray.off, 0
+    has_goal, faces, boundary = ray.goal is not None, plane.face, plane.boundary
     while True:
-        face = plane.face[entry]
+        face = faces[entry]
         outline = plane.outline(face)
         if face == OUTSIDE or len(outline) > 1:
             return entry, crossed, NO_HALF_EDGE
@@ -102,7 +103,8 @@ def _across_faces(
                 left = False
             else:
                 return entry, crossed, NO_HALF_EDGE
-        if (plane.boundary[end >> 1] and not through_bodies) or ray.beyond_at_edge(end) >= 0:
+        is_wall = boundary[end >> 1] and not through_bodies
+        if is_wall or (has_goal and ray.beyond_at_edge(end) >= 0):
             return entry, crossed, end
         entry, crossed = HalfEdge(end ^ 1), crossed + 1
 
@@ -110,7 +112,8 @@ def _across_faces(
 def _step_from(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
     """Return the step that starts at a spot."""
     if spot.on is On.FACE:
-        return _through_face(plane, ray, spot.handle, spot)
+        step = _into_hull(plane, ray) if spot.handle == OUTSIDE else None
+        return step or _through_face(plane, ray, spot.handle, spot)
     if spot.on is On.EDGE:
         h = HalfEdge(spot.handle)
         # The ray has a point of the edge, whose target is on the side `side` of it.
@@ -123,6 +126,18 @@ def _step_from(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
     if along:
         return _along(plane, h)
     return _through_face(plane, ray, plane.face[h], spot)
+
+
+def _into_hull(plane: Subdivision, ray: Ray) -> RayStep | None:
+    """Return the step outside of the hull from an origin there on; None if doubles do not decide.
+
+    The line enters the hull ahead of the origin if this is on the outer side of the edge.
+    """
+    edge = None if plane.hull is None else plane.hull.entered(ray.line, ray.off)
+    if edge is None:
+        return None
+    is_ahead = edge != NO_HALF_EDGE and ray.begins_before(edge)
+    return RayStep(Spot(On.FACE, OUTSIDE), Spot(On.EDGE, edge) if is_ahead else None)
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
@@ -164,8 +179,11 @@ def _through_face(
     """Return the step through a face from a spot on, perhaps from its entry edge.
 
     The line of the ray leaves the face across edges whose origin is on its right. If there is one,
-    and the face is bounded, it is the end; otherwise places along the ray are compared.
+    and the face is bounded, it is the end; otherwise places along the ray are compared. From a node
+    or an edge of the hull to the outside a ray is without end, since the hull is convex.
     """
+    if face == OUTSIDE and since.on is not On.FACE:
+        return RayStep(Spot(On.FACE, OUTSIDE), None)
     (dx, dy, c), off = ray.line, ray.off
     starts_here = since.on is On.NODE and ray.origin == plane.points[since.handle]
     ends: list[HalfEdge] = []
@@ -217,7 +235,7 @@ def _exactly_through_face(
             s, t = ray.side(origin[h]), ray.side(origin[h ^ 1])
             if s == 0:
                 ends.append(Spot(On.NODE, origin[h]))
-            elif s * t < 0 and h != entry:
+            elif s < 0 < t:  # not an edge on whose left the ray comes into the face
                 ends.append(Spot(On.EDGE, h))
     through = Spot(On.FACE, face)
     if len(ends) == 1 and entry != NO_HALF_EDGE and face != OUTSIDE:
