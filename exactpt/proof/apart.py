@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
+from math import ceil, cos, log2, pi, sin
 from typing import Any, Final, TypeAlias, final
 
 import numpy as np
@@ -26,6 +27,10 @@ FEW, CLOSE = 8, 1e-15
 """Of so few items, gaps down to the second number are tried: the exact test decides."""
 MANY: Final = 24
 """Number of items up to which edges and nearest vertices propose directions, too."""
+VECTORS: Final = 10_000
+"""Number of vectors between vertices of two groups up to which all are looked at."""
+UNCERTAIN: Final = 1e-12
+"""Bound of the error of an angle between such vectors: of a smaller one the sign is not certain."""
 FINEST: Final = 2**40
 """Times are not halved further than to this part of the span."""
 Node: TypeAlias = tuple[Items, Frame | tuple[Fraction, Fraction], int]
@@ -141,12 +146,18 @@ class Separation:
 
     def _proposed(self, frame: Frame, items: Items, rows: Items) -> Iterator[tuple[Cut, float]]:
         """Yield moving lines, and the parts of all items that both of their sides may have."""
-        usual = DIRECTIONS, frame.usual(rows)
-        yield from ((cut, 1.0) for cut in self._clean(items, *usual))
-        more = self._directions(frame, items, rows)
-        both = [usual, (more, frame.extents(items, rows, more))] if len(more) else [usual]
-        for some in both[1:]:
-            yield from ((cut, 1.0) for cut in self._clean(items, *some))
+        usual, two = (DIRECTIONS, frame.usual(rows)), self._between_two(frame, items, rows)
+        both = [usual]
+        if two is not None and len(two):
+            yield from (
+                (cut, 1.0) for cut in self._clean(items, two, frame.extents(items, rows, two))
+            )
+        if two is None or len(two):
+            yield from ((cut, 1.0) for cut in self._clean(items, *usual))
+            more = self._directions(frame, items, rows)
+            both += [(more, frame.extents(items, rows, more))] if len(more) else []
+            for some in both[1:]:
+                yield from ((cut, 1.0) for cut in self._clean(items, *some))
         cuts = [cut for some in both if len(items) > 4 for cut in self._crossing(*some)]
         yield from ((cut, CROSSING) for cut in sorted(cuts, reverse=True)[:3])
 
@@ -194,6 +205,35 @@ class Separation:
                 room = 1e-3 * float(size[j])
                 found.append(Cut(float(least[k, j]) / count, (int(x), int(y)), (c, d), room))
         return found
+
+    def _between_two(self, frame: Frame, items: Items, rows: Items) -> Floats | None:
+        """Return a direction in which one of two groups is before the other at start and end.
+
+        None if it is to be searched for: of more groups, many vertices, with distances, or where
+        doubles are too near. No row if it does not exist: the vectors from one group to the other
+        are in no half-plane. If they are, it is in the middle of them, with short numbers.
+        """
+        group = self._group[items]
+        mine = group == group[0]
+        others = group[~mine]
+        a, b = (np.unique(frame.ends_of[rows[part]]) for part in (mine, ~mine))
+        if (others != others[:1]).any() or len(a) * len(b) > VECTORS:
+            return None
+        halves = frame.ends / 2  # the differences are doubles
+        xs, ys = (halves[:, b, None] - halves[:, None, a]).reshape(-1, 2).T
+        angles = np.arctan2(ys, xs)
+        first = float(angles[0])
+        turns = (angles - first + pi) % (2 * pi) - pi
+        least, most = float(turns.min()), float(turns.max())
+        room = pi - (most - least)
+        if room < -UNCERTAIN:
+            return np.empty((0, 2))
+        if not room > UNCERTAIN or self._paths.widest or self._paths.extra:
+            return None
+        middle, bits = first + (least + most) / 2, min(max(ceil(log2(3 / room)), 1), 50)
+        x, y = cos(middle), sin(middle)
+        longest, unit = max(abs(x), abs(y)), 2.0**bits
+        return np.array([[float(round(f / longest * unit)) for f in (x, y)]])
 
     def _directions(self, frame: Frame, items: Items, rows: Items) -> Floats:
         """Return normals of some edges, and directions between nearest vertices of two groups."""

@@ -38,6 +38,7 @@ class WholeBodies:
         self._are_grouped = len({*self._group}) < len(self._group)
         low, high = frame.body_extents(DIRECTIONS)
         middles = (low + high).sum(axis=0, keepdims=True)
+        self._order = [*range(len(DIRECTIONS))]  # the directions of the last lines first
         self._extents = np.concatenate([low, high, middles]).transpose(2, 0, 1).tolist()
 
     def cut(self, present: Collection[int]) -> tuple[Plane, set[int]] | None:
@@ -46,15 +47,17 @@ class WholeBodies:
         None if there is none in the usual directions with enough room.
         """
         best: Found | None = None
+        at = 0
         rows = [self._frame.row_of[i] for i in present]
-        for j in range(len(DIRECTIONS)):
+        for j in self._order:
             found = self._best(j, rows)
             if found is not None and (best is None or found[0] > best[0]):
-                best = found
+                best, at = found, j
                 if best[0] >= 0.5:
                     break
         if best is None:
             return None
+        self._order.insert(0, self._order.pop(self._order.index(at)))
         _, cut, below, ends = best
         plane, is_straight = self._frame.plane(cut), self._frame.is_straight
         certain = (

@@ -747,3 +747,12 @@ def test_bug_tiny_bodies_that_overlap_at_the_start_are_found():
     disc = {"name": "p", "vertices": [["2e-324", "0"]], "radius": "1e-324"}
     other = {"name": "q", "vertices": [["2.5e-324", "0"], ["2.5e-324", "1"]], "radius": "1.4e-324"}
     assert said(certificate_by(disc, other)).endswith("at t = 0 (b0 is 'p', b1 is 'q')")
+
+
+def test_a_line_between_two_bodies_is_found_in_any_direction():
+    """The normal of a line past a moving point is that of no edge, and not in the usual ones."""
+    point = Body("p", [(0, 0)])
+    past = Body("q", [(1000, 176)], Translation([0, -1996], [0, -263]))
+    nodes = exactpt.certify(Scene([point, past], time=(0, 1))).text.decode().splitlines()[3:-1]
+    assert len(nodes) == 1
+    assert nodes[0].startswith("c ")
