@@ -20,7 +20,7 @@ Point Dart Json Entry Triple Track Whole ONE Poses NUMBER MAX_BITS MAX_DEGREE No
 Rejected Exhausted Work WORK require words most_words longest Poly vector_of dot_of values turn
 meet are_same is_simple surrounds Bare need number rational keys entries check_json polynomial
 degree Motion cleared Body point vertex keyframes spin_of path_of Scene MAX_DIGITS MAX_BYTES
-is_rational read read_json file_bytes say
+is_rational read read_json file_bytes say MOTION_KEYS
 """.split()  # noqa: SIM905
 METHODS = {  # of classes that are not copied whole
     "Poly": "__new__ __add__ __sub__ __mul__",

@@ -2,19 +2,9 @@
 
     python3 -I check_apart.py SCENE CERTIFICATE [--until T] [--partial] [--expect ANSWER] [--work N]
 
-This file imports the standard library alone, and uses no floats. The statement, the file format
-and the complete argument are in docs/proofs.md, Certificates. The reader of scenes is copied from
-proof_check.py, without its comments and without what verifies the records `spin` and `path`.
-
-An item is an edge of a body, or its only vertex. A node of the certificate shows that items of
-two bodies that count have no common point in [s, e] (with a distance D: are farther apart):
-    t [Q]            the nodes of [s, Q] and of [Q, e]; Q is the middle if it is missing
-    c NX NY C [V]    by the moving line n.p = C + V t: the nodes of all items that are not certain
-                     to be above it, and of all that are not certain to be below it
-    s BODY K         the nodes of all items without the items >= K of this body, and without the
-                     others of this body
-Nodes are in prefix order; those without two bodies that count are not written. A vertex with its
-time is in the convex hull of a few points (`hull`), so a line in motion is a plane.
+It imports the standard library alone and uses no floats. docs/proofs.md, Certificates, has the
+statement, the file format and the whole argument. The reader of scenes is copied from
+proof_check.py, without its comments. An item is an edge of a body, or its only vertex.
 
 Exit code: 0 accepted, 1 rejected, or not the statement that was wanted, 2 no certificate of this
 scene, 4 not decided: the budget of work is used up.
@@ -125,8 +115,9 @@ def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
     return odd
-NUMBER = re.compile('([+-]?\\d++)(?:/(\\d++))?|([+-]?)(\\d*+)\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?', re.ASCII)
-MAX_BITS = 33220; MAX_DIGITS = 10000; MAX_DEGREE = 64
+NUMBER = re.compile('([+-]?)(\\d*+)(?:/(\\d++)|\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?)', re.ASCII); MAX_BITS = 33220
+MAX_DIGITS = 10000; MAX_DEGREE = 64
+MOTION_KEYS = {'': ([], ['x', 'y']), 'affine': (['matrix'], ['x', 'y']), 'rigid': (['half_turn'], ['x', 'y', 'pivot', 'orientation'])}
 class Bare(str): __slots__ = ()
 def need(condition: object, what: str, data: Json='') -> None:
     if not condition: raise NoProofError(f'the scene: {what} {data!r:.60}')
@@ -134,16 +125,12 @@ def number(data: Json) -> Fraction:
     need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, 'not a number:', data); return rational(data)
 @lru_cache(1000)
 def rational(data: str) -> Fraction:
-    match = NUMBER.fullmatch(data)
-    if match is None: raise NoProofError(f'the scene: not a number: {data!r:.60}')
-    whole, under, minus, units, decimals, exponent = match.groups()
-    if whole is not None:
-        need(under is None or under.strip('0'), 'a denominator is zero:', data)
-        q = Fraction(int(whole), int(under)) if under else Fraction(int(whole))
-    else:
-        need(units or decimals, 'not a number:', data); power, n = (int(exponent or 0), int(minus + units + decimals))
-        need(abs(power) <= 100000, 'an exponent beyond 100,000:', data); power = power - len(decimals) if n else 0
-        q = Fraction(n * 10 ** power) if power >= 0 else Fraction(n, 10 ** (-power))
+    match = NUMBER.fullmatch(data); minus, units, under, decimals, exponent = match.groups('') if match else [''] * 5
+    need(units or decimals, 'not a number:', data); need(not under or under.strip('0'), 'a denominator is zero:', data)
+    power, n = (int(exponent or 0), int(minus + units + decimals))
+    need(abs(power) <= 100000, 'an exponent beyond 100,000:', data); power = power - len(decimals) if n else 0
+    is_whole = power >= 0 and (not under)
+    q = Fraction(n * 10 ** power) if is_whole else Fraction(n, int(under or 10 ** (-power)))
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
 def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> dict[str, Json]:
@@ -162,9 +149,7 @@ def degree(*polynomials: Poly) -> int: return max(1, *map(len, polynomials)) - 1
 class Motion:
     def __init__(self, data: Json, of_shape: int) -> None:
         kind = next((k for k in ('rigid', 'affine') if isinstance(data, dict) and k in data), '')
-        optional = ['pivot', 'orientation'] if kind == 'rigid' else []
-        required = {'rigid': ['half_turn'], 'affine': ['matrix'], '': []}[kind]
-        given = keys(keys(data, [kind])[kind] if kind else data, required, ['x', 'y', *optional])
+        given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
         x, y = (polynomial(given.get(k, [])) for k in 'xy')
         m, high = ([ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y)))
         if kind == 'affine':
@@ -358,7 +343,7 @@ ORDER = (
 )
 Plane = tuple[int, int, int, int]
 Planes = tuple[Plane, Plane]
-Hull = list[tuple[int, int, int, int]]
+Hull = list[Plane]
 
 
 def is_bounded(row: list[str]) -> bool:
@@ -617,33 +602,33 @@ class Checker:
         """A vertex, or the edge that begins there."""
         return f"b{self.scene.body_of[v]}.{v - self.scene.of(v).first}"
 
-    def run(self) -> Proved:
+    def run(self, accepted: str = "") -> Proved:
         """Check everything, and return the statement."""
         self.line, (kind, *row) = self.last
         a, low, first, end = self.start, self.until, self.scene.start, self.scene.end
-        high, how, bodies = low, "", list[int]()
         what = f"within {self.distance}" if self.distance else ""
         rest = [f"[{first}, {a})"] * (first < a)
         rest += [f"({low}, {end}]"] * (kind == "none" and low < end)
-        if kind == "none":
-            text = f"no two bodies {f'are {what}' if what else 'share a point'} "
-            text += f"in [{a}, {low}]" if a < low else f"at t = {a}"
-            text += ", the whole span" * (not rest)
-        else:
-            high, how, bodies = self.check_contact(kind, row)
-            text = f"first {f'time {what}' if what else 'contact'} of two bodies in ({low}, {high}]: {how}"
-        if kind != "none" and high == a:
+        found = kind != "none"
+        high, how, bodies = self.check_contact(kind, row) if found else (low, "", [])
+        if found and high == a:
             require(low == a and not self.nodes, "there is a contact at the start")
             text = f"two bodies {what or 'share a point'} at the start t = {a}: {how}"
         else:
-            require(kind == "none" or low < high, "a contact before the end of the span")
+            require(not found or low < high, "a contact before the end of the span")
             self.check_outside()
             self.check_apart()
+            text = f"first {f'time {what}' if what else 'contact'} of two bodies in ({low}, {high}]: {how}"
+        if not found:
+            text = f"no two bodies {f'are {what}' if what else 'share a point'} "
+            text += f"in [{a}, {low}]" if a < low else f"at t = {a}"
+            text += ", the whole span" * (not rest)
         if rest:
             text += f"; the span of the scene is [{first}, {end}]: nothing is said of {' and '.join(rest)}"
         chosen = sorted({*bodies, *self.chosen})
-        names = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in chosen)
-        proved = Proved(f"{text}{self.selection}" + (f" ({names})" if names else ""))
+        said = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in chosen)
+        names = f" ({said})" if said else ""
+        proved = Proved(f"{accepted}{text}{self.selection}{names}")
         proved.low, proved.until, proved.meets = low, high, kind != "none" and not self.distance
         proved.is_of_all = not self.selection and a == first
         proved.whole = not rest and proved.is_of_all
@@ -662,18 +647,14 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
         many = certificate.startswith(b"exactpt-apart-rows 1\n")
         rows = [] if many else read(certificate)
         head = f"exactpt-apart-rows 1\nscenes sha256 {digest}\n".encode()
-        named = certificate.startswith(head) if many else rows[1][1][2] == digest
-        if not named:
+        if not certificate.startswith(head) if many else rows[1][1][2] != digest:
             raise NoProofError("the certificate was made for a different scene: the hashes differ")
+        accepted = f"accepted: {digest[:16]} "
         if many:
-            proved = check_rows(text.split("\n"), certificate.decode().split("\n")[2:])
-        else:
-            scene, line = Scene(text), rows[2][0]
-            checker = Checker(scene, rows)
-            proved = checker.run()
-        verdict = Proved(f"accepted: {digest[:16]} {proved}")
-        verdict.__dict__.update(proved.__dict__)
-        return verdict
+            return check_rows(accepted, text.split("\n"), certificate.decode().split("\n")[2:])
+        scene, line = Scene(text), rows[2][0]
+        checker = Checker(scene, rows)
+        return checker.run(accepted)
     except UnicodeDecodeError:
         raise NoProofError("a file is not UTF-8") from None
     except Rejected as why:
@@ -684,7 +665,7 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
         WORK.left = Work.usual
 
 
-def check_rows(scenes: list[str], rows: list[str]) -> Proved:
+def check_rows(accepted: str, scenes: list[str], rows: list[str]) -> Proved:
     """Check a certificate of many scenes, a line each, with ; between its lines; or only "open"."""
     ends = [scenes.pop(), rows.pop()] if scenes and rows else ["no line"]
     need(ends == ["", ""], "or the certificate: a last line without an end:", ends)
@@ -705,7 +686,8 @@ def check_rows(scenes: list[str], rows: list[str]) -> Proved:
             kind = start.get(proved.split()[0], "contact at the start")
         found[kind] += 1
     said = ", ".join(f"{kind} in {n}" for kind, n in found.items() if n)
-    proved = Proved(f"{len(rows)} rows, each of two or more bodies in the whole span: {said}")
+    text = f"{len(rows)} rows, each of two or more bodies in the whole span: {said}"
+    proved = Proved(f"{accepted}{text}")
     proved.until, proved.whole = Fraction(0), not found["open"]
     return proved
 
@@ -759,10 +741,8 @@ def main(arguments: list[str]) -> int:
         reason = differs(proved, file_bytes(Path(answer))) if answer else ""
         require(not reason, f"rejected: {reason} {answer!a}; proved is: {proved}")
         return say(proved, 0, sys.stdout)
-    except Rejected as verdict:
-        return say(str(verdict), 1, sys.stdout)
-    except Exhausted as verdict:
-        return say(str(verdict), 4, sys.stdout)
+    except (Rejected, Exhausted) as verdict:
+        return say(str(verdict), 1 if isinstance(verdict, Rejected) else 4, sys.stdout)
     except (NoProofError, OSError, ValueError) as error:
         return say(str(error), 2, sys.stderr)
 

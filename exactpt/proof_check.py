@@ -491,12 +491,17 @@ def comes_before(d: Point, e: Point) -> bool:
 
 # ---- The scene (docs/scene-grammar.md). All of it is read; what is not understood is refused.
 
-NUMBER = re.compile(
-    r"([+-]?\d++)(?:/(\d++))?|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?", re.ASCII
-)
+NUMBER = re.compile(r"([+-]?)(\d*+)(?:/(\d++)|\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?)", re.ASCII)
 MAX_BITS = 33_220  # of a numerator or denominator in a scene: 10,000 digits
 MAX_DIGITS = 10_000  # of one in a proof
 MAX_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
+
+
+MOTION_KEYS = {  # required, and optional
+    "": ([], ["x", "y"]),
+    "affine": (["matrix"], ["x", "y"]),
+    "rigid": (["half_turn"], ["x", "y", "pivot", "orientation"]),
+}
 
 
 class Bare(str):
@@ -521,18 +526,14 @@ def number(data: Json) -> Fraction:
 def rational(data: str) -> Fraction:
     """Return the rational that a text of few characters denotes; many are there several times."""
     match = NUMBER.fullmatch(data)
-    if match is None:
-        raise NoProofError(f"the scene: not a number: {data!r:.60}")
-    whole, under, minus, units, decimals, exponent = match.groups()
-    if whole is not None:
-        need(under is None or under.strip("0"), "a denominator is zero:", data)
-        q = Fraction(int(whole), int(under)) if under else Fraction(int(whole))
-    else:
-        need(units or decimals, "not a number:", data)
-        power, n = int(exponent or 0), int(minus + units + decimals)
-        need(abs(power) <= 100_000, "an exponent beyond 100,000:", data)
-        power = power - len(decimals) if n else 0
-        q = Fraction(n * 10**power) if power >= 0 else Fraction(n, 10**-power)
+    minus, units, under, decimals, exponent = match.groups("") if match else [""] * 5
+    need(units or decimals, "not a number:", data)
+    need(not under or under.strip("0"), "a denominator is zero:", data)
+    power, n = int(exponent or 0), int(minus + units + decimals)
+    need(abs(power) <= 100_000, "an exponent beyond 100,000:", data)
+    power = power - len(decimals) if n else 0
+    is_whole = power >= 0 and not under
+    q = Fraction(n * 10**power) if is_whole else Fraction(n, int(under or 10**-power))
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, "more than 10,000 digits:", data)
     return q
@@ -580,9 +581,7 @@ class Motion:
     def __init__(self, data: Json, of_shape: int) -> None:
         self.rigid: Turn | None = None  # own
         kind = next((k for k in ("rigid", "affine") if isinstance(data, dict) and k in data), "")
-        optional = ["pivot", "orientation"] if kind == "rigid" else []
-        required = {"rigid": ["half_turn"], "affine": ["matrix"], "": []}[kind]
-        given = keys(keys(data, [kind])[kind] if kind else data, required, ["x", "y", *optional])
+        given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
         x, y = (polynomial(given.get(k, [])) for k in "xy")
         m, high = [ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y))
         if kind == "affine":
