@@ -214,8 +214,11 @@ def as_doubles(values: Iterable[object]) -> list[float] | None:
     result: list[float] = []
     for value in values:
         if type(value) is float:
-            near = value
-        elif (type(value) is int and -_INTEGERS <= value <= _INTEGERS) or (
+            if not -math.inf < value < math.inf:
+                return None
+            result.append(value)
+            continue
+        if (type(value) is int and -_INTEGERS <= value <= _INTEGERS) or (
             isinstance(value, float) and type(value).__module__ == "numpy"
         ):
             near = float(value)

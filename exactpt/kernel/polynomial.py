@@ -87,7 +87,7 @@ class Polynomial:
         """The coefficients; the last is not 0."""
         values = self._exact
         if values is None:
-            values = tuple([rational(c) for c in self._doubles or ()])
+            values = tuple([QQ(*c.as_integer_ratio()) for c in self._doubles or ()])
             object.__setattr__(self, "_exact", values)
         return values
 
