@@ -197,8 +197,7 @@ class _Contraction:
         self.nodes: list[Node] = []
         for moving in vertices.bodies:
             body = moving.body
-            tracks = {vertices.all[v].index: vertices.all[v].track for v in moving.ring}
-            self.nodes += [Node(body.name, i, *tracks[i]._at(at)) for i in range(body.size)]
+            self.nodes += [Node(body.name, i, x, y) for i, (x, y) in enumerate(body._at(at))]
         self.node = vertices.nodes()
         self.cuts: dict[tuple[int, int], set[int]] = {}
 

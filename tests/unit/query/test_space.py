@@ -9,6 +9,7 @@ import pytest
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.course import Piece
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, RINGS, generate
 from exactpt.tiling.events import ContactFound
@@ -353,3 +354,17 @@ def test_bug_the_relative_hull_of_a_point_is_the_point():
 
     assert simulation.name == "incremental"
     assert [simulation.relative_hull(p.name) for p in points] == [[(p.name, 0)] for p in points]
+
+
+@pytest.mark.parametrize("family", ["convex", "stars", "letters"])
+def test_positions_of_nodes_need_no_trajectories(family, monkeypatch):
+    made, track = [], Piece.track
+    monkeypatch.setattr(Piece, "track", lambda piece, v: made.append(v) or track(piece, v))
+    simulation = Simulation(generate(family, 1))
+
+    space = simulation.space()
+
+    assert not made
+    found = [((node.body, node.vertex), (node.x, node.y)) for node in space.snapshot.nodes]
+    places = simulation.scene.at(space.at)
+    assert found == [((b, i), place) for b in places for i, place in enumerate(places[b])]
