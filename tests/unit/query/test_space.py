@@ -356,11 +356,11 @@ def test_bug_the_relative_hull_of_a_point_is_the_point():
     assert [simulation.relative_hull(p.name) for p in points] == [[(p.name, 0)] for p in points]
 
 
-@pytest.mark.parametrize("family", ["convex", "stars", "letters"])
-def test_positions_of_nodes_need_no_trajectories(family, monkeypatch):
+@pytest.mark.parametrize("seed", [1, 5])
+def test_positions_of_nodes_need_no_trajectories(seed, monkeypatch):
     made, track = [], Piece.track
     monkeypatch.setattr(Piece, "track", lambda piece, v: made.append(v) or track(piece, v))
-    simulation = Simulation(generate(family, 1))
+    simulation = Simulation(generate("convex", seed))
 
     space = simulation.space()
 
