@@ -253,10 +253,9 @@ def vector_near(angle: QQ, error: QQ) -> Vector:
 def tangent_near(angle: QQ, bits: int) -> QQ:
     """Return a rational number near the tangent of an angle of less than pi / 4; no proof."""
     near = math.tan(nearest_float(angle))
+    # `near` is off by less than 2^-50: it is rounded as the tangent, unless that is between two.
     if bits <= _COARSE and abs(near * 2.0**bits % 1.0 - 0.5) > 1 / 16:
-        return rounded(
-            rational(near), bits
-        )  # as the result of Newton's method, not half a unit off
+        return rounded(rational(near), bits)
     m = rational(near)
     for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
         m = rounded(m - (atan_bounds(m, bits + 8)[0] - angle) * (1 + m * m), bits + 8)

@@ -51,7 +51,7 @@ def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
             return None
         px, py = path._pivot
         reach = nearest_square_root(max((x - px) ** 2 + (y - py) ** 2 for x, y in places))
-        reach = math.nextafter(reach, math.inf)
+        reach = math.nextafter(reach, math.inf)  # the root is at most half a unit above the nearest
         if not math.isfinite(reach):
             return None
         places, margin = [(px, py)], QQ(reach) + body._radius

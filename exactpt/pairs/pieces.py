@@ -106,7 +106,8 @@ class ScenePieces:
     def near_at_start(self, distance: Distance = contact_distance) -> list[tuple[int, int]]:
         """Return the pairs i < j of bodies whose boxes intersect at the start.
 
-        If the boxes are not grown, these are the boxes of few pieces: they are within a distance.
+        Of few pieces those whose boxes are within the distance at which the pieces touch; the boxes
+        of more pieces are grown by it already.
         """
         if not isinstance(self._pairs, Sequence):
             from exactpt.pairs.boxes import pairs_at

@@ -49,7 +49,7 @@ def pieces_on_demand(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is None:
         return None
-    if margin:
+    if margin:  # a sum is rounded to a nearest double: the next one is at least the exact sum
         numbers[:, 8] = np.nextafter(numbers[:, 8] + margin, np.inf)
     numbers[:, 11], numbers[:, 12] = enclosing_floats(start)[0], enclosing_floats(end)[1]
 

@@ -30,7 +30,7 @@ MANY: Final = 24
 VECTORS: Final = 10_000
 """Number of vectors between vertices of two groups up to which all are looked at."""
 UNCERTAIN: Final = 1e-12
-"""Bound of the error of an angle between such vectors: of a smaller one the sign is not certain."""
+"""Of a smaller angle between such vectors the sign is not taken: a proposal needs no proof."""
 FINEST: Final = 2**40
 """Times are not halved further than to this part of the span."""
 Node: TypeAlias = tuple[Items, Frame | tuple[Fraction, Fraction], int]
