@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, grown, overlapping_pairs, widen_unknown
+from exactpt.geometry.moving_boxes import moving_pairs
 from exactpt.kernel.doubles import middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
@@ -29,6 +30,9 @@ Indices: TypeAlias = NDArray[np.int64]
 
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
+
+FEW_SLABS: Final = 8
+"""After so many slabs, and twice, four times as many, a tree is tried for the rest of the span."""
 
 
 @final
@@ -104,6 +108,18 @@ class PieceBoxes:
         boxes[:, 1::2] = most + np.maximum(begin, end) + margin
         widen_unknown(boxes)
         return active, boxes
+
+    def meeting_on_the_way(self, low: float, high: float, many: int) -> Near | None:
+        """Return the pairs of pieces whose moving boxes intersect during [low, high].
+
+        None if there are too many, or if a piece lasts only during a part of [low, high].
+        """
+        lasting = (self._start <= low) & (self._end >= high)
+        if not lasting.sum() == ((self._start <= high) & (self._end >= low)).sum() > 0:
+            return None
+        (active, begin), (_, end) = self.during(low, low), self.during(high, high)
+        found = moving_pairs(begin, end, many)
+        return None if found is None else (active[found[0]], active[found[1]])
 
     @np.errstate(all="ignore")
     def windows(self, i: Indices, j: Indices, low: float, high: float) -> tuple[Floats, Floats]:
@@ -194,11 +210,7 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
     if 0.0 < stride < np.inf:
         first = min(first, QQ(stride))
     many, seen = 8 * bodies + 64, set[tuple[int, int]]()
-
-    def near(now: QQ, later: QQ) -> Near:
-        return _meeting(boxes, *_around(now, later))
-
-    for now, later, found in slabs((start, end), near, many, first, span):
+    for now, later, found in _slabs(boxes, (start, end), many, first):
         i, j = np.stack(found)[:, boxes.body[found[0]] != boxes.body[found[1]]]
         enter, leave = boxes.windows(i, j, *_around(now, later))
         meets = enter <= leave
@@ -210,6 +222,24 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
             if (k, l) not in seen:
                 seen.add((k, l))
                 yield time, k, l
+
+
+def _slabs(
+    boxes: PieceBoxes, span: tuple[QQ, QQ], many: int, first: QQ
+) -> Iterator[tuple[QQ, QQ, Near]]:
+    """Yield slabs of time and their candidates; the last is the rest of the span, if possible."""
+
+    def near(now: QQ, later: QQ) -> Near:
+        return _meeting(boxes, *_around(now, later))
+
+    end = span[1]
+    for count, slab in enumerate(slabs(span, near, many, first, end - span[0]), 1):
+        yield slab
+        if count >= FEW_SLABS and count & (count - 1) == 0 and slab[1] < end:
+            rest = boxes.meeting_on_the_way(*_around(slab[1], end), many)
+            if rest is not None:
+                yield slab[1], end, rest
+                return
 
 
 def _around(now: QQ, later: QQ) -> tuple[float, float]:

@@ -1,5 +1,7 @@
 """The search over pairs: what it does not look at, and what it must not leave out."""
 
+from fractions import Fraction
+from itertools import product
 from random import Random
 
 import pytest
@@ -13,6 +15,8 @@ from exactpt.pairs import boxes as row_boxes
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs.features_sweep import PairsSearch
 from fuzz.questions.all_pairs import first_contact_allpairs
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
 def jellies(rng, count, size):
@@ -149,6 +153,22 @@ def test_slabs_do_not_depend_on_the_time_span(compared, straight):
         counts.append(sum(compared))
 
     assert 0 < max(counts) <= 1.2 * min(counts)
+
+
+@pytest.mark.parametrize("is_mixed", [False, True])
+def test_bodies_that_fly_apart_are_compared_once_for_the_rest_of_the_span(monkeypatch, is_mixed):
+    """Boxes of all that they pass overlap in long slabs: 31 and 37 slabs without the tree."""
+    ends, looks = [], row_boxes._meeting
+    monkeypatch.setattr(row_boxes, "_meeting", lambda *args: ends.append(args[2]) or looks(*args))
+    bodies = [
+        Body(f"b{k}", SQUARE, Translation([3 * x, 0.1 * x], [3 * y, 0.1 * y]))
+        for k, (x, y) in enumerate(product(range(-8, 8), repeat=2))
+    ]
+    if is_mixed:  # one passes between two rows
+        bodies.append(Body("late", SQUARE, Translation([-99, Fraction(1, 9)], [Fraction(3, 2)])))
+
+    assert first_contact(Scene(bodies, (0, 10**6))) is None
+    assert row_boxes.FEW_SLABS <= len(ends) <= row_boxes.FEW_SLABS + 2
 
 
 def test_a_slab_that_was_too_long_is_not_tried_each_time(monkeypatch):
