@@ -261,18 +261,20 @@ class _Contraction:
             yield from self._path(p, q)
 
     def _expanded(self, nodes: Sequence[int]) -> list[int]:
+        if not self.cuts:
+            return list(nodes)
         return [w for u, v in pairwise([*nodes, nodes[0]]) for w in self._path(u, v)]
 
     def _edges(self) -> list[Edge]:
         found: dict[tuple[int, int], Edge] = {}
-        m = self.mesh.map
-        for h in map(HalfEdge, range(0, len(m.origin), 2)):
-            if m.origin[h] < 0 or self._is_inside(h):
+        origin, node = self.mesh.map.origin, self.node
+        for h in map(HalfEdge, range(0, len(origin), 2)):
+            if origin[h] < 0 or self._is_inside(h):
                 continue
-            u, v = (self.node[w] for w in self.mesh.ends(h))
+            u, v = node[origin[h]], node[origin[h ^ 1]]
             if u == v:
                 continue
-            for p, q in pairwise([*self._path(u, v), v]):
+            for p, q in pairwise([*self._path(u, v), v]) if self.cuts else ((u, v),):
                 key = edge_key(p, q)
                 old = found.get(key)
                 boundary = self.mesh.is_boundary(h) or (old is not None and old.kind == "boundary")

@@ -29,7 +29,6 @@ from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
-from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Located, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
@@ -64,12 +63,12 @@ class FreeSpace:
         self._changes = kinetic.vertices.changes
         self._node = kinetic.vertices.nodes()
         self._bodies = [moving.body for moving in kinetic.vertices.bodies]
-        self._mesh: Mesh = kinetic.mesh_now(at)
+        mesh = kinetic.mesh_now(at)
         # The relative hulls of the mesh change as the run goes on: they are read now.
-        self._relative_hulls = self._mesh.relative_hulls()
+        self._relative_hulls = mesh.relative_hulls()
         self._at = at
         self._wide: dict[int, ShortestPaths] = {}
-        self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
+        self.snapshot: Snapshot = snapshot(self._vertices, mesh, kinetic.name, at)
 
     @property
     def at(self) -> Fraction:
@@ -80,15 +79,8 @@ class FreeSpace:
         raise TypeError("a FreeSpace is of its run: copy the simulation, or take the snapshot")
 
     @cached_property
-    def _hidden(self) -> set[tuple[int, int]]:
-        """The edges inside bodies, as pairs of nodes (u, v) with u < v."""
-        mesh, node = self._mesh, self._node
-        ends = [mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] == INSIDE]
-        return {(min(node[u], node[v]), max(node[u], node[v])) for u, v in ends}
-
-    @cached_property
     def _plane(self) -> Subdivision:
-        return Subdivision(self.snapshot, self._bodies, self._hidden)
+        return Subdivision(self.snapshot, self._bodies)
 
     # Places and rays
 
@@ -193,7 +185,7 @@ class FreeSpace:
             if plane.points:
                 corners = self._around.corners(count)
                 wider = with_outer_triangulation(self.snapshot, self._hull_nodes(), corners)
-                plane = Subdivision(wider, self._bodies, self._hidden)
+                plane = Subdivision(wider, self._bodies)
             self._wide[count] = ShortestPaths(plane)
         return self._wide[count]
 

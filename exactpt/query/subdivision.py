@@ -8,9 +8,9 @@ free space, the interiors of the bodies, and the exterior of the convex hull.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from functools import cached_property, cmp_to_key
-from itertools import pairwise
+from bisect import insort
+from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import Final, TypeAlias, final
 
 from mypy_extensions import i64
@@ -18,7 +18,7 @@ from mypy_extensions import i64
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, sign
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
@@ -44,8 +44,6 @@ class Subdivision:
     Args:
         snapshot: the tiling.
         bodies: the bodies, in the order of the scene.
-        hidden: edges of the tiling to leave out, those inside bodies: pairs of nodes (u, v)
-            with u < v.
 
     Attributes:
         snapshot: the tiling.
@@ -63,12 +61,7 @@ class Subdivision:
         body: index of the body of each node.
     """
 
-    def __init__(
-        self,
-        snapshot: Snapshot,
-        bodies: Sequence[Body],
-        hidden: Collection[tuple[int, int]] = (),
-    ) -> None:
+    def __init__(self, snapshot: Snapshot, bodies: Sequence[Body]) -> None:
         self.snapshot = snapshot
         self.points: list[Point] = [(node._x, node._y) for node in snapshot.nodes]
         self.nodes = Nodes(self.points)
@@ -81,13 +74,9 @@ class Subdivision:
                 self.first.append(i)
             self.body.append(len(self.names) - 1)
         self.first.append(len(self.points))
-        self.map = PlanarMap()
-        self.boundary: list[bool] = []
-        self.out: list[HalfEdge] = [NO_HALF_EDGE] * len(self.points)
-        self._link(hidden)
-        self.face: list[int] = [OUTSIDE] * len(self.map.origin)
+        self.boundary = [edge.kind == "boundary" for edge in snapshot.edges]
         self.cycles: dict[int, list[HalfEdge]] = {}
-        self._name_faces(bodies)
+        self._link(bodies)
         self._outlines: dict[int, list[list[Corner]]] = {}
 
     def direction(self, h: HalfEdge) -> Point:
@@ -125,56 +114,41 @@ class Subdivision:
         body = self.body[node]
         return self.names[body], node - self.first[body]
 
-    def _link(self, hidden: Collection[tuple[int, int]]) -> None:
-        around: list[list[HalfEdge]] = [[] for _ in self.points]
-        for edge in self.snapshot.edges:
-            if edge.kind == "boundary" or (edge.u, edge.v) not in hidden:
-                h = self.map.add_edge(VertexId(edge.u), VertexId(edge.v))
-                self.boundary.append(edge.kind == "boundary")
-                around[edge.u].append(h)
-                around[edge.v].append(twin(h))
-        for node, edges in enumerate(around):
-            if edges:
-                self.out[node] = edges[0]
-                star = self._sorted(edges)
-                for h, following in pairwise([*star, star[0]]):
-                    # Coming in along the twin of the later half-edge, the face continues
-                    # along the earlier one.
-                    self.map.link(twin(following), h)
+    def _link(self, bodies: Sequence[Body]) -> None:
+        """Link the half-edges around each face; those of no tile or body are around the outside."""
+        ends = [
+            pair for edge in self.snapshot.edges for pair in ((edge.u, edge.v), (edge.v, edge.u))
+        ]
+        half = {pair: HalfEdge(h) for h, pair in enumerate(ends)}
+        following, previous = [NO_HALF_EDGE] * len(ends), [NO_HALF_EDGE] * len(ends)
+        self.face: list[int] = [OUTSIDE] * len(ends)
+        for number, nodes in self._rings(bodies):
+            cycle = [half[pair] for pair in zip(nodes, (*nodes[1:], nodes[0]), strict=True)]
+            insort(self.cycles.setdefault(number, []), min(cycle))
+            for h, g in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
+                following[h], previous[g], self.face[h] = g, h, number
+        outer: dict[i64, list[HalfEdge]] = {}
+        for h in half.values():
+            if following[h] == NO_HALF_EDGE:
+                outer.setdefault(ends[h][0], []).append(h)
+        for h in (h for edges in outer.values() for h in edges):
+            # A hull without area has two at a node: back along the edge only at its ends.
+            after = outer[ends[h][1]]
+            g = after[0] if after[0] != twin(h) else after[-1]
+            following[h], previous[g] = g, h
+        if outer:
+            self.cycles[OUTSIDE] = [min(h for edges in outer.values() for h in edges)]
+        self.out = [NO_HALF_EDGE] * len(self.points)
+        for (u, _), h in reversed(half.items()):
+            self.out[u] = h
+        self.map = PlanarMap.of((VertexId(u) for u, _ in ends), following, previous, [])
 
-    def _sorted(self, edges: list[HalfEdge]) -> list[HalfEdge]:
-        """Half-edges out of a node, sorted counter-clockwise from the direction (1, 0)."""
-        direction = {h: self.direction(h) for h in edges}
-        lower = {h: y < 0 or (y == 0 and x < 0) for h, (x, y) in direction.items()}
-
-        def order(g: HalfEdge, h: HalfEdge) -> int:
-            if lower[g] != lower[h]:
-                return 1 if lower[g] else -1
-            return -sign(cross(direction[g], direction[h]))
-
-        return sorted(edges, key=cmp_to_key(order))
-
-    def _name_faces(self, bodies: Sequence[Body]) -> None:
-        names: dict[tuple[i64, i64], int] = {}
+    def _rings(self, bodies: Sequence[Body]) -> Iterator[tuple[int, Sequence[i64]]]:
+        """Yield the cycles around tiles and in bodies: the face, and its nodes."""
+        yield from ((i, tile.nodes) for i, tile in enumerate(self.snapshot.faces))
         for i, body in enumerate(bodies):
-            if body.has_interior:
-                names.update(dict.fromkeys(self._inner_edges(i, body), -2 - i))
-        for i, tile in enumerate(self.snapshot.faces):
-            names.update(dict.fromkeys(pairwise([*tile.nodes, tile.nodes[0]]), i))
-        origin = self.map.origin
-        seen: set[HalfEdge] = set()
-        for h in map(HalfEdge, range(len(origin))):
-            self.face[h] = face = names.get((origin[h], origin[h ^ 1]), OUTSIDE)
-            if h not in seen:
-                seen.update(self.map.face(h))
-                self.cycles.setdefault(face, []).append(h)
-
-    def _inner_edges(self, i: int, body: Body) -> Iterator[tuple[int, int]]:
-        """Yield the edges of a closed body, directed so that its interior is on their left."""
-        for rings in body.parts:
-            for k, ring in enumerate(rings):
-                nodes = [self.first[i] + vertex for vertex in ring]
-                turns_left = signed_area2([self.points[v] for v in nodes]) > 0
-                if turns_left != (k == 0):
-                    nodes.reverse()
-                yield from pairwise([*nodes, nodes[0]])
+            for rings in body.parts if body.has_interior else ():
+                for k, ring in enumerate(rings):
+                    nodes = [self.first[i] + vertex for vertex in ring]
+                    turns_left = signed_area2([self.points[v] for v in nodes]) > 0
+                    yield -2 - i, nodes if turns_left == (k == 0) else nodes[::-1]

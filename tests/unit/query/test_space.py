@@ -368,3 +368,22 @@ def test_positions_of_nodes_need_no_trajectories(seed, monkeypatch):
     found = [((node.body, node.vertex), (node.x, node.y)) for node in space.snapshot.nodes]
     places = simulation.scene.at(space.at)
     assert found == [((b, i), place) for b in places for i, place in enumerate(places[b])]
+
+
+@pytest.mark.parametrize("family", ["convex", "stars", "chains", "flat", "lakes", "frames"])
+def test_links_of_the_subdivision_turn_counter_clockwise(family):
+    """They come from the cycles around tiles and in bodies, not from directions."""
+    scene = generate(family, 1)
+    plane = FreeSpace(start_tiling(scene, "auto", scene.start), scene.start)._plane
+    plane.map.audit()
+    cycles = [plane.map.face(h) for face in plane.cycles.values() for h in face]
+    assert sorted(h for cycle in cycles for h in cycle) == list(range(len(plane.face)))
+
+    def angle(h):
+        x, y = plane.direction(h)
+        return y < 0 or (y == 0 and x < 0), y != 0, y and -x / y
+
+    for h in plane.out:
+        star = plane.map.star(h)
+        least = star.index(min(star, key=angle))
+        assert [*star[least:], *star[:least]] == sorted(star, key=angle)
