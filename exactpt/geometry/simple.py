@@ -47,11 +47,11 @@ def is_surely_simple(
     n = len(xs)
     if n <= 2:
         return n == 1 or abs(xs[1] - xs[0]) > 3.0 * error or abs(ys[1] - ys[0]) > 3.0 * error
-    if closed:
-        if _turns_once(xs, ys, error):
-            return True
-        if n == 3:
-            return False
+    if closed and n == 3:
+        sides = xs[1] - xs[0], ys[1] - ys[0], xs[2] - xs[1], ys[2] - ys[1]
+        return _cross_sign(*sides, error) != 0
+    if closed and _turns_once(xs, ys, error):
+        return True
     if n > FEW:
         return _is_simple_of_many(xs, ys, error, closed=closed)
     return _no_edges_meet(xs, ys, error, closed=closed)

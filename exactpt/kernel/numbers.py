@@ -15,7 +15,7 @@ import sys
 from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeAlias
 
 import gmpy2
 
@@ -205,25 +205,27 @@ def rational(value: Rational) -> QQ:
         raise InputError(f"not a number: {shorten(value)}") from None
 
 
-def as_doubles(values: Iterable[object]) -> list[float] | None:
+def as_doubles(values: list[Any]) -> list[float] | None:
     """Return the values as doubles; None unless each is a finite ``float`` or small ``int``.
 
     Of the types derived from these only ``numpy.float64`` counts; integers are small if all
-    of their size are doubles.
+    of their size are doubles. A list of floats is returned itself.
     """
+    for value in values:
+        if type(value) is not float:
+            break
+    else:
+        if math.isfinite(sum(values)):  # then each is
+            return values
     result: list[float] = []
     for value in values:
-        if type(value) is float:
-            if not -math.inf < value < math.inf:
+        kind = type(value)
+        if kind is int:
+            if not -_INTEGERS <= value <= _INTEGERS:
                 return None
-            result.append(value)
-            continue
-        if (type(value) is int and -_INTEGERS <= value <= _INTEGERS) or (
-            isinstance(value, float) and type(value).__module__ == "numpy"
-        ):
-            near = float(value)
-        else:
+        elif not (kind is float or (isinstance(value, float) and kind.__module__ == "numpy")):
             return None
+        near = float(value)
         if not -math.inf < near < math.inf:
             return None
         result.append(near)

@@ -280,9 +280,11 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
     """
     if isinstance(value, Polynomial):
         return value
-    if isinstance(value, Iterable) and not isinstance(value, str):
+    if isinstance(value, str):
+        return Polynomial._of([rational(value)])
+    if type(value) is list or isinstance(value, Iterable):
         return Polynomial(value)
-    if isinstance(value, str) or hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):
+    if hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):
         return Polynomial([value])
     raise InputError(f"not a polynomial: {value!r}")
 

@@ -143,11 +143,10 @@ class Course:
         self._shape = shape
         self._pieces: dict[QQ | None, Piece] = {}
         self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
-        ends = {frame.t for frame in shape.keyframes}
+        self.breakpoints: tuple[QQ, ...] = tuple([frame.t for frame in shape.keyframes])
         if isinstance(motion, Pieces):
-            ends.update(motion._until)
+            self.breakpoints = tuple(sorted({*self.breakpoints, *motion._until}))
             self._check_continuity(motion)
-        self.breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
 
     def after(self, t: QQ) -> Piece:
         """Return the piece just after a rational time."""

@@ -74,7 +74,12 @@ def outline_at(body: Body, t: QQ) -> Outline | None:
 
 def is_simple_by_doubles(body: Body, t: QQ) -> bool:
     """Return True if a body of one ring or chain certainly is simple at a time, with an area."""
-    shape = None if body.has_rings else outline_at(body, t)
+    if body.has_rings:
+        return False
+    doubles = body._shape.doubles
+    if doubles is not None and isinstance(body.motion, (Translation, Rigid)):
+        return is_surely_simple(*doubles, closed=body.closed)
+    shape = outline_at(body, t)
     return shape is not None and is_surely_simple(
         shape.xs, shape.ys, closed=body.closed, error=shape.error
     )

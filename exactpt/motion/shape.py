@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
@@ -74,7 +74,7 @@ class Shape:
     ) -> None:
         self.doubles: tuple[list[float], list[float]] | None = None
         self.keyframes: tuple[Keyframe, ...] = ()
-        self._pieces: list[tuple[Position, ...]] = []
+        self._pieces: Sequence[tuple[Position, ...]] = ()
         self._positions: tuple[Position, ...] | None = None
         self._near: Places | Literal[False] | None = False
         if keyframes is not None:
@@ -151,19 +151,19 @@ class Shape:
 
 def _near(positions: Sequence[Position]) -> Places | None:
     """Return vertices in doubles; None if not constant, out of range, or not given."""
-    near = Places([], [], is_exact=True)
-    for vertex in positions:
-        for coordinate, values in zip(vertex, (near.xs, near.ys), strict=True):
-            coefficients = coordinate._coefficients
-            value = coefficients[0] if coefficients else _ZERO
-            values.append(nearest_float(value))
-            if len(coefficients) > 1:
+    coordinates, is_exact = list[float](), True
+    for coordinate in chain.from_iterable(positions):
+        coefficients = coordinate._coefficients
+        value = coefficients[0] if coefficients else _ZERO
+        near = nearest_float(value)
+        coordinates.append(near)
+        if len(coefficients) > 1:
+            return None
+        if near != value:
+            if not SMALLEST <= abs(near) <= LARGEST:
                 return None
-            if values[-1] != value:
-                if not SMALLEST <= abs(values[-1]) <= LARGEST:
-                    return None
-                near = near._replace(is_exact=False)
-    return near if positions else None
+            is_exact = False
+    return Places(coordinates[::2], coordinates[1::2], is_exact) if positions else None
 
 
 def _given(vertex: Position) -> tuple[object, object]:
@@ -182,6 +182,8 @@ def listed(what: str, values: object) -> list[Any]:
     Raises:
         InputError: if it is not one.
     """
+    if type(values) in _PAIRS:
+        return list(values)  # type: ignore[call-overload, no-any-return]
     if _is_array_of_numbers(values):
         listed: list[Any] = values.tolist()  # type: ignore[attr-defined]
         return listed
@@ -210,7 +212,7 @@ def _pair(point: object) -> tuple[Any, Any]:
 
 def _read_doubles(vertices: Sequence[object]) -> tuple[list[float], list[float]] | None:
     """Return the coordinates x and y of vertices; None unless all are pairs of doubles."""
-    flat: list[object] = []
+    flat: list[Any] = []
     for vertex in vertices:
         if type(vertex) not in _PAIRS or len(vertex) != 2:  # type: ignore[arg-type]
             return None

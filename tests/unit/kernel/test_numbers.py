@@ -21,6 +21,7 @@ from exactpt.kernel.approximation import decimal_quotient
 from exactpt.kernel.numbers import (
     QQ,
     ZZ,
+    as_doubles,
     ceil,
     enclosing_floats,
     floor,
@@ -369,3 +370,29 @@ def test_zero_is_found():
 def test_no_digits_are_refused():
     with pytest.raises(InputError, match="digits: at least 1"):
         decimal_quotient(poly(1), poly(1), ROOT_OF_TWO, 0)
+
+
+@every(
+    "values",
+    [
+        [1.5, -0.0, 5e-324],
+        [1.7e308, 1.7e308],  # their sum is infinite
+        [1.7e308, -1.7e308, 1],
+        [2**53, -(2**53), 0.5],
+        [np.float64(0.1), 3],
+        [],
+    ],
+)
+def test_values_that_are_doubles(values):
+    found = as_doubles(list(values))
+
+    assert list(map(type, found)) == [float] * len(values)
+    assert list(map(Fraction, found)) == list(map(Fraction, values))
+
+
+@every(
+    "other", [math.inf, math.nan, 2**53 + 1, 10**400, True, "1", np.float32(1), np.float64("inf")]
+)
+def test_values_that_are_no_doubles(other):
+    assert all(as_doubles(values) is None for values in ([other], [0.5, other], [1, other, 0.5]))
+    assert as_doubles([math.inf, -math.inf]) is None
