@@ -244,7 +244,7 @@ def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
     return tuple(map(rational, listed))
 
 
-def nearest_float(value: QQ) -> float:
+def nearest_float(value: QQ | float) -> float:
     """Return the double nearest to ``value``; ±inf beyond the largest double.
 
     gmpy2 and ``fractions`` round correctly, but for too large a value the former

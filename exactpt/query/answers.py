@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, fraction, place
 from exactpt.kernel.radicals import nearest_root_sum
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from exactpt.geometry.predicates import Point
 
 PLACES: Final = ("tile", "diagonal", "outside", "body", "edge", "vertex")
 """The kinds of a `Place`; `Located.kind` has indices of them."""
@@ -70,9 +73,25 @@ class Located(NamedTuple):
         return f"<Located: {len(self.kind)} points>"
 
 
+class _Later:
+    """The values `point` and `at` of a hit are computed when one is first read."""
+
+    __slots__ = ("_source",)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            if name not in {"point", "at"}:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            point, at = self._source()
+            object.__setattr__(self, "point", place(point))
+            object.__setattr__(self, "at", fraction(at))
+            return getattr(self, name)
+
+
 @final
 @dataclass(frozen=True, slots=True)
-class Hit:
+class Hit(_Later):
     """The first point of a ray that belongs to a body.
 
     Attributes:
@@ -91,6 +110,26 @@ class Hit:
     point: tuple[Fraction, Fraction]
     at: Fraction
     crossed: int
+
+
+def hit_later(
+    body: str,
+    vertex: int | None,
+    edge: int | None,
+    crossed: int,
+    source: Callable[[], tuple[Point, QQ]],
+) -> Hit:
+    """Return a hit whose point and parameter come from a call, when one of them is first read."""
+    hit = object.__new__(Hit)
+    for name, value in (
+        ("body", body),
+        ("vertex", vertex),
+        ("edge", edge),
+        ("crossed", crossed),
+        ("_source", source),
+    ):
+        object.__setattr__(hit, name, value)
+    return hit
 
 
 @final

@@ -18,7 +18,7 @@ from exactpt.kernel.numbers import place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
-from exactpt.query.ray import On, Ray, Spot
+from exactpt.query.ray import On, Ray, Spot, reach
 from exactpt.query.shortest import last_step
 from exactpt.query.sight import FreeTriangles
 from exactpt.query.sleeve import NOWHERE, Sleeves, bends, pull_tight
@@ -99,7 +99,7 @@ class ShortestPaths:
         plane = self._plane
         if p == q:
             return []
-        ray = Ray.between(plane, p, q)
+        ray = Ray(plane, p, goal=q)
         spot, _ = find(plane, p)
         here = tile
         crossed: list[HalfEdge] = []
@@ -116,7 +116,7 @@ class ShortestPaths:
                 return crossed
             place = place_of(plane, step.end)
             if place.body is not None:
-                x, y = ray.point(ray.parameter(step.end))
+                (x, y), _ = reach(p, ray.direction, ray.ends(step.end))
                 raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
             spot = step.end
 

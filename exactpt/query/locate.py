@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
+from collections.abc import Sequence
+from functools import partial
+
+from mypy_extensions import i64
 
 from exactpt.geometry.predicates import Point
-from exactpt.indices import HalfEdge, VertexId
-from exactpt.kernel.numbers import fraction
-from exactpt.kernel.numbers import place as in_fractions
-from exactpt.query.answers import PLACES, Hit, Place
-from exactpt.query.ray import On, Ray, Spot
+from exactpt.indices import VertexId
+from exactpt.query.answers import PLACES, Hit, Place, hit_later
+from exactpt.query.nodes import Given
+from exactpt.query.ray import On, Ray, Spot, reach
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import follow
 
+_TILE, _DIAGONAL, _OUTSIDE, _BODY, _EDGE, _VERTEX = range(len(PLACES))
 
-def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
+
+def find(plane: Subdivision, p: Given) -> tuple[Spot, int]:
     """Point location by a straight walk from a node near the point (jump-and-walk).
 
     Returns:
@@ -28,7 +32,7 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
         return Spot(On.NODE, node), 0
     if plane.out[node] < 0:  # the only one
         return Spot(On.FACE, OUTSIDE), 0
-    ray = Ray.between(plane, start, p)
+    ray = Ray(plane, start, goal=p)
     step, passed = follow(plane, ray, Spot(On.NODE, node), through_bodies=True)
     if step.end is None or ray.beyond_goal(step.end) > 0:
         return step.through, passed
@@ -37,36 +41,38 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
     """Return the location of a spot in terms of the scene's bodies."""
-    handle = spot.handle
-    if spot.on is On.NODE:
-        body, vertex = plane.node_name(handle)
-        return Place("vertex", body, vertex, crossed=crossed)
-    if spot.on is On.EDGE:
-        ends = plane.map.origin[handle], plane.map.origin[handle ^ 1]
-        if plane.boundary[handle >> 1]:
-            name = plane.names[plane.body[ends[0]]]
-            return Place("edge", name, edge=plane.edge_number(HalfEdge(handle)), crossed=crossed)
-        names = plane.node_name(min(ends)), plane.node_name(max(ends))
-        return Place("diagonal", diagonal=names, crossed=crossed)
-    if handle == OUTSIDE:
-        return Place("outside", crossed=crossed)
-    if handle >= 0:
-        return Place("tile", tile=handle, crossed=crossed)
-    return Place("body", plane.names[-2 - handle], crossed=crossed)
+    kind, owner, feature = codes_of(plane, spot)
+    ends = None
+    if kind == _DIAGONAL:
+        h, origin = spot.handle, plane.map.origin
+        u, v = plane.node_name(origin[h]), plane.node_name(origin[h ^ 1])
+        ends = (u, v) if origin[h] < origin[h ^ 1] else (v, u)
+    return Place(
+        PLACES[kind],
+        plane.names[owner] if kind >= _BODY else None,
+        feature if kind == _VERTEX else None,
+        feature if kind == _EDGE else None,
+        owner if kind == _TILE else None,
+        ends,
+        crossed,
+    )
 
 
-def codes_of(plane: Subdivision, spot: Spot) -> tuple[int, int, int]:
+def codes_of(plane: Subdivision, spot: Spot) -> tuple[int, i64, i64]:
     """Return the location of a spot as the numbers of a row of `Located`."""
-    place = place_of(plane, spot)
-    kind = PLACES.index(place.kind)
-    if place.tile is not None:
-        return kind, place.tile, -1
-    if place.body is None:
-        return kind, -1, -1
-    node = plane.map.origin[spot.handle] if spot.on is On.EDGE else spot.handle
-    body = -2 - spot.handle if spot.on is On.FACE else plane.body[node]
-    feature = place.edge if place.vertex is None else place.vertex
-    return kind, body, -1 if feature is None else feature
+    on, h = spot
+    if on is On.EDGE:
+        if not plane.boundary[h >> 1]:
+            return _DIAGONAL, -1, -1
+        u, v = plane.map.origin[h], plane.map.origin[h ^ 1]
+        body = plane.body[u]
+        # From a vertex to the next one, or from the last one of a ring to its first.
+        return _EDGE, body, (min(u, v) if u - v in {1, -1} else max(u, v)) - plane.first[body]
+    if on is On.NODE:
+        return _VERTEX, plane.body[h], h - plane.first[plane.body[h]]
+    if h >= 0:
+        return _TILE, h, -1
+    return (_OUTSIDE, -1, -1) if h == OUTSIDE else (_BODY, -2 - h, -1)
 
 
 def cast(plane: Subdivision, ray: Ray) -> Hit | None:
@@ -77,11 +83,10 @@ def cast(plane: Subdivision, ray: Ray) -> Hit | None:
     """
     spot = Spot(On.FACE, OUTSIDE)
     if not ray.begins_outside():
-        spot, _ = find(plane, ray.origin)
-        place = place_of(plane, spot)
-        if place.body is not None:
-            start = in_fractions(ray.origin)
-            return Hit(place.body, place.vertex, place.edge, start, Fraction(0), 0)
+        spot, _ = find(plane, ray.given)
+        hit = _hit(plane, ray, spot, (), 0)
+        if hit is not None:
+            return hit
     if not plane.points:
         return None
     if OUTSIDE not in plane.cycles:
@@ -89,19 +94,31 @@ def cast(plane: Subdivision, ray: Ray) -> Hit | None:
     step, crossed = follow(plane, ray, spot, through_bodies=False)
     if step.end is None or ray.beyond_goal(step.end) > 0:
         return None
-    place = place_of(plane, step.end)
-    if place.body is None:  # the goal is on a diagonal
+    return _hit(plane, ray, step.end, ray.ends(step.end), crossed)
+
+
+def _hit(
+    plane: Subdivision, ray: Ray, spot: Spot, ends: Sequence[Point], crossed: int
+) -> Hit | None:
+    """Return the hit of a ray at a spot and its ends; None in free space, where a goal may be."""
+    kind, body, feature = codes_of(plane, spot)
+    if kind < _BODY:
         return None
-    at = ray.parameter(step.end)
-    return Hit(
-        place.body, place.vertex, place.edge, in_fractions(ray.point(at)), fraction(at), crossed
+    vertex, edge = feature if kind == _VERTEX else None, feature if kind == _EDGE else None
+    return hit_later(
+        plane.names[body],
+        vertex,
+        edge,
+        crossed,
+        partial(reach, ray.given, ray.along or ray.direction, ends),
     )
 
 
 def _cast_at_point(plane: Subdivision, ray: Ray) -> Hit | None:
     """`cast` in a scene that consists of a single point."""
     node = VertexId(0)
-    at = ray.reaches(node)
+    spot = Spot(On.NODE, node)
+    at = ray.parameter(spot)
     if ray.side(node) != 0 or at < 0 or (ray.goal is not None and at > 1):
         return None
-    return Hit(plane.names[0], 0, None, in_fractions(plane.points[0]), fraction(at), 0)
+    return _hit(plane, ray, spot, ray.ends(spot), 0)

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import final
+from typing import TypeAlias, final
 
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.numbers import QQ, Rational, finite, nearest_float, rational
+
+Given: TypeAlias = Point | tuple[float, float]
+"""A point or a vector: exact, or two doubles, which are made exact only where it matters."""
+
+
+def exact(point: Given | Sequence[Rational]) -> Point:
+    """Return a point or a vector in rationals."""
+    return rational(point[0]), rational(point[1])
 
 
 @final
 class Nodes:
-    """The positions of nodes as the nearest doubles, relative to the first node, in a grid.
+    """The positions of nodes as the nearest doubles, relative to an origin of doubles, in a grid.
 
     No result depends on the grid: a walk from any node ends in the cell that contains the point.
 
@@ -24,10 +32,13 @@ class Nodes:
         size: the largest absolute value of a coordinate.
     """
 
-    __slots__ = ("_cells", "_columns", "_origin", "_side", "_x", "_y", "size", "xs", "ys")
+    __slots__ = ("_cells", "_columns", "_exact", "_origin", "_side", "_x", "_y", "size", "xs", "ys")
 
     def __init__(self, points: Sequence[Point]) -> None:
-        self._origin: Point = points[0] if points else (QQ(0), QQ(0))
+        first = points[0] if points else (QQ(0), QQ(0))
+        # Near the first node; doubles minus doubles need no rational number.
+        self._origin = finite(nearest_float(first[0])), finite(nearest_float(first[1]))
+        self._exact = exact(self._origin)
         near = [self.of(point) for point in points]
         self.xs, self.ys = [x for x, _ in near], [y for _, y in near]
         self.size = max(map(abs, (*self.xs, *self.ys)), default=0.0)
@@ -40,11 +51,15 @@ class Nodes:
             for node, (x, y) in enumerate(zip(self.xs, self.ys, strict=True)):
                 self._cells.setdefault(self._cell(x, y), []).append(node)
 
-    def of(self, point: Point) -> tuple[float, float]:
-        """Return a point as doubles, relative to the first node."""
-        return nearest_float(point[0] - self._origin[0]), nearest_float(point[1] - self._origin[1])
+    def of(self, point: Given) -> tuple[float, float]:
+        """Return the doubles nearest to the position of a point relative to the origin."""
+        x, y = point
+        if type(x) is float and type(y) is float:
+            return x - self._origin[0], y - self._origin[1]
+        ox, oy = self._exact
+        return nearest_float(rational(x) - ox), nearest_float(rational(y) - oy)
 
-    def near(self, point: Point) -> int:
+    def near(self, point: Given) -> int:
         """Return a node that is probably near a point."""
         x, y = self.of(point)
         if not self._cells:

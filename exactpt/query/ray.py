@@ -28,7 +28,9 @@ SLACK covers terms of second order, TINY underflow, since all numbers are below 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from enum import Enum
+from functools import cached_property
 from typing import Final, NamedTuple, final
 
 from mypy_extensions import i64
@@ -38,6 +40,7 @@ from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, nearest_float, sign
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.planar.halfedge import twin
+from exactpt.query.nodes import Given, exact
 from exactpt.query.subdivision import Subdivision, cross
 
 _LARGEST: Final = 2.0**400
@@ -68,28 +71,25 @@ class Ray:
     """The points origin + s * direction, s >= 0; the direction is not (0, 0).
 
     Attributes:
-        origin: the start.
-        direction: the direction.
         goal: the point with parameter 1; None if it does not matter.
+        given, along: the origin and the direction as they were given; no direction with a goal.
         line: numbers dx, dy, c; the node (x, y) is to the left of the ray if dx y - dy x - c > 0.
         off: a bound on the errors of these numbers, for all nodes.
     """
 
-    __slots__ = (
-        "_edge_off", "_goal", "_near", "_plane", "_sides", "direction", "goal", "line",
-        "off", "origin",
-    )  # fmt: skip
-
     def __init__(
-        self, plane: Subdivision, origin: Point, direction: Point, goal: Point | None = None
+        self,
+        plane: Subdivision,
+        origin: Given,
+        direction: Given | None = None,
+        goal: Given | None = None,
     ) -> None:
-        self.origin = origin
-        self.direction = direction
+        self.given, self.along = origin, direction
         self.goal = goal
         self._plane = plane
         self._sides: dict[VertexId, int] = {}
         ox, oy = plane.nodes.of(origin)
-        dx, dy = nearest_float(direction[0]), nearest_float(direction[1])
+        dx, dy = map(nearest_float, direction or self.direction)
         self._near = ox, oy
         self.line = dx, dy, dx * oy - dy * ox
         size, length = max(plane.nodes.size, abs(ox), abs(oy)), abs(dx) + abs(dy)
@@ -99,10 +99,18 @@ class Ray:
         size = max(size, abs(gx), abs(gy))
         self._edge_off = 64.0 * U * size * size * SLACK + TINY if size < _LARGEST else math.inf
 
-    @classmethod
-    def between(cls, plane: Subdivision, start: Point, goal: Point) -> Ray:
-        """Return the ray from a point through its goal."""
-        return cls(plane, start, (goal[0] - start[0], goal[1] - start[1]), goal)
+    @cached_property
+    def origin(self) -> Point:
+        """The start."""
+        return exact(self.given)
+
+    @cached_property
+    def direction(self) -> Point:
+        """The direction."""
+        if self.along is not None:
+            return exact(self.along)
+        (x, y), (ox, oy) = exact(self.goal or self.given), self.origin
+        return x - ox, y - oy
 
     def place_of(self, h: HalfEdge) -> tuple[float, float]:
         """Return bounds of t, a positive multiple of the parameter at which it crosses an edge.
@@ -157,42 +165,43 @@ class Ray:
 
     def begins_before(self, h: HalfEdge) -> bool:
         """Return True if the origin is to the left of an edge."""
-        return self._side_of_edge(h, self.origin, self._near) > 0
+        return self._side_of_edge(h, self.given, self._near) > 0
 
-    def _side_of_edge(self, h: HalfEdge, point: Point, near: tuple[float, float]) -> int:
+    def _side_of_edge(self, h: HalfEdge, point: Given, near: tuple[float, float]) -> int:
         origin, nodes = self._plane.map.origin, self._plane.nodes
         u, v, (x, y) = origin[h], origin[h ^ 1], near
         ax, ay = nodes.xs[u], nodes.ys[u]
         value = (nodes.xs[v] - ax) * (y - ay) - (nodes.ys[v] - ay) * (x - ax)
         if abs(value) > self._edge_off:
             return 1 if value > 0.0 else -1
-        return orientation(self._plane.points[u], self._plane.points[v], point)
+        return orientation(self._plane.points[u], self._plane.points[v], exact(point))
 
     def parameter(self, spot: Spot) -> QQ:
         """Return the parameter at a node of the ray, or an edge not parallel to it; 0 in a face."""
+        return _parameter(self.origin, self.direction, self.ends(spot))
+
+    def ends(self, spot: Spot) -> tuple[Point, ...]:
+        """Return the position of a node, or of the ends of an edge; nothing of a face."""
         if spot.on is On.FACE:
-            return QQ(0)
+            return ()
+        points, origin = self._plane.points, self._plane.map.origin
         if spot.on is On.NODE:
-            return self.reaches(VertexId(spot.handle))
-        origin = self._plane.map.origin
-        return self.crosses(origin[spot.handle], origin[spot.handle ^ 1])
+            return (points[spot.handle],)
+        return points[origin[spot.handle]], points[origin[spot.handle ^ 1]]
 
-    def reaches(self, node: VertexId) -> QQ:
-        """Return the parameter of a node on the line of the ray."""
-        (x, y), (ox, oy), (dx, dy) = self._plane.points[node], self.origin, self.direction
-        return ((x - ox) * dx + (y - oy) * dy) / (dx * dx + dy * dy)
 
-    def crosses(self, u: VertexId, v: VertexId) -> QQ:
-        """Return the parameter at which the line of the ray crosses the edge from u to v."""
-        a, b = self._plane.points[u], self._plane.points[v]
-        along = b[0] - a[0], b[1] - a[1]
-        return cross((a[0] - self.origin[0], a[1] - self.origin[1]), along) / cross(
-            self.direction, along
-        )
+def reach(start: Given, along: Given, ends: Sequence[Point]) -> tuple[Point, QQ]:
+    """Return the point of a ray at some ends (`Ray.ends`), and its parameter."""
+    (ox, oy), (dx, dy) = origin, direction = exact(start), exact(along)
+    at = _parameter(origin, direction, ends)
+    return (ox + at * dx, oy + at * dy), at
 
-    def point(self, at: QQ) -> Point:
-        """Return the point with parameter ``at``."""
-        return (
-            self.origin[0] + at * self.direction[0],
-            self.origin[1] + at * self.direction[1],
-        )
+
+def _parameter(origin: Point, direction: Point, ends: Sequence[Point]) -> QQ:
+    """Return the parameter at which a ray crosses the line of an edge, or reaches a node of it."""
+    if not ends:
+        return QQ(0)
+    (ox, oy), (dx, dy), (x, y) = origin, direction, ends[0]
+    # At a node, the line at a right angle to the ray.
+    along = (ends[1][0] - x, ends[1][1] - y) if len(ends) > 1 else (-dy, dx)
+    return cross((x - ox, y - oy), along) / cross(direction, along)

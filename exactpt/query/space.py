@@ -28,11 +28,12 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Located, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, codes_of, find, place_of
+from exactpt.query.nodes import Given, exact
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.ray import Ray
 from exactpt.query.subdivision import OUTSIDE, Subdivision
@@ -86,7 +87,7 @@ class FreeSpace:
 
     def locate(self, point: PointLike) -> Place:
         """Return the location of a point: tile, diagonal, body, edge, vertex, or outside."""
-        spot, crossed = find(self._plane, _point(point))
+        spot, crossed = find(self._plane, _given(point))
         return place_of(self._plane, spot, crossed)
 
     def locate_many(self, points: ArrayLike) -> Located:
@@ -108,8 +109,7 @@ class FreeSpace:
         kind, (owner, feature) = np.empty(len(given), np.int8), np.full((2, len(given)), -1)
         for k, (x, y) in enumerate(given.tolist()):
             check_budget()
-            spot, _ = find(plane, (rational(x), rational(y)))
-            kind[k], owner[k], feature[k] = codes_of(plane, spot)
+            kind[k], owner[k], feature[k] = codes_of(plane, find(plane, (x, y))[0])
         return Located(kind, owner, feature)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
@@ -118,17 +118,17 @@ class FreeSpace:
         Raises:
             InputError: if the direction is (0, 0).
         """
-        start, along = _point(origin), _point(direction)
+        start, along = _given(origin), _given(direction)
         if not any(along):
             raise InputError("a ray needs a direction that is not (0, 0)")
         return cast(self._plane, Ray(self._plane, start, along))
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
         """Return True if no body intersects the closed segment from p to q."""
-        start, end = _point(p), _point(q)
+        start, end = _given(p), _given(q)
         if start == end:
             return self.locate(start).is_free
-        return cast(self._plane, Ray.between(self._plane, start, end)) is None
+        return cast(self._plane, Ray(self._plane, start, goal=end)) is None
 
     # Paths
 
@@ -266,7 +266,12 @@ class FreeSpace:
         return self._plane.names.index(body)
 
 
-def _point(p: PointLike) -> Point:
+def _given(p: PointLike) -> Given:
     if isinstance(p, str) or len(p) != 2:
         raise InputError(f"a point has two coordinates: {p!r}")
-    return rational(p[0]), rational(p[1])
+    near = as_doubles([*p])
+    return exact(p) if near is None else (near[0], near[1])
+
+
+def _point(p: PointLike) -> Point:
+    return exact(_given(p))

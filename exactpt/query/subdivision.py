@@ -78,6 +78,7 @@ class Subdivision:
         self.cycles: dict[int, list[HalfEdge]] = {}
         self._link(bodies)
         self._outlines: dict[int, list[list[Corner]]] = {}
+        self._ahead: list[list[Corner] | None] = [None] * len(self.face)
 
     def direction(self, h: HalfEdge) -> Point:
         """Return the vector from the origin of a half-edge to its target."""
@@ -99,15 +100,22 @@ class Subdivision:
             ]
         return known
 
+    def ahead(self, h: HalfEdge) -> list[Corner]:
+        """Return the corners after a half-edge around its face, the last one at its origin.
+
+        There are none of the face outside, and of a face with several cycles.
+        """
+        known = self._ahead[h]
+        if known is None:
+            face = self.face[h]
+            cycle = self.map.face(h)[1:] if face != OUTSIDE and len(self.cycles[face]) == 1 else []
+            known = self._ahead[h] = [(*self.place(twin(g)), g) for g in cycle]
+        return known
+
     @cached_property
     def hull(self) -> Hull | None:
         """The hull of the nodes; None without any edges."""
         return Hull(self.outline(OUTSIDE)[0]) if OUTSIDE in self.cycles else None
-
-    def edge_number(self, h: HalfEdge) -> int:
-        """Return the number of the edge of a body that a half-edge belongs to."""
-        u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
-        return (u if v == u + 1 else v) - self.first[self.body[u]]
 
     def node_name(self, node: i64) -> tuple[str, int]:
         """Return the name of the body and the number of the vertex of a node."""
