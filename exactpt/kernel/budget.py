@@ -85,6 +85,9 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
         _LIMITS.deadline, _LIMITS.memory, _LIMITS.look = old
 
 
+_UNLIMITED: Final = contextlib.nullcontext()
+
+
 @contextlib.contextmanager
 def searching(
     deadline: float | None, contact_free_until: Callable[[], Fraction | None]
@@ -96,16 +99,13 @@ def searching(
         contact_free_until: returns a time up to which the search has found no contact, or None:
             ``reached`` of an error that has none.
     """
-    with within(None if deadline is None else deadline + GRACE):
+    with _UNLIMITED if deadline is None else within(deadline + GRACE):
         try:
             yield
         except BudgetExceeded as spent:
             if spent.reached is None:
                 spent.reached = contact_free_until()
             raise
-
-
-_UNLIMITED: Final = contextlib.nullcontext()
 
 
 def deadline_in(seconds: float | None) -> float | None:

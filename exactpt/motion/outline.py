@@ -227,12 +227,15 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
 
 def _is_exact(body: Body) -> bool:
     """Return True if doubles have the vertices and the first motion, a translation, exactly."""
-    near, motion = body._shape.near, pieces_of(body.motion)[0][0]
+    near, motion = body._shape.near, body.motion
+    if isinstance(motion, Pieces):
+        motion = motion.motions[0]
     return (
         isinstance(motion, Translation)
+        and motion.x._doubles is not None
+        and motion.y._doubles is not None
         and near is not None
         and near.is_exact
-        and None not in (motion.x._doubles, motion.y._doubles)
     )
 
 
@@ -250,8 +253,9 @@ def straight_pieces(
     with the same origin may be compared.
     """
     motions = pieces_of(body.motion)
-    if any(not isinstance(m, Translation) or max(m.x.degree, m.y.degree) > 1 for m, _ in motions):
-        return None
+    for motion, _ in motions:
+        if not isinstance(motion, Translation) or motion.x.degree > 1 or motion.y.degree > 1:
+            return None
     shape = shape or rest_outline(body)
     if shape is None:
         return None
