@@ -18,11 +18,11 @@ from exactpt.kernel.numbers import place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
-from exactpt.query.ray import On, Ray, Spot, reach
+from exactpt.query.ray import Ray, reach
 from exactpt.query.shortest import last_step
 from exactpt.query.sight import FreeTriangles
 from exactpt.query.sleeve import NOWHERE, Sleeves, bends, pull_tight
-from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision
 from exactpt.query.walk import steps_of
 
 

@@ -11,29 +11,43 @@ from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.query.answers import PLACES, Hit, Place, hit_later
 from exactpt.query.nodes import Given
-from exactpt.query.ray import On, Ray, Spot, reach
-from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.ray import Ray, reach
+from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision
 from exactpt.query.walk import follow
 
 _TILE, _DIAGONAL, _OUTSIDE, _BODY, _EDGE, _VERTEX = range(len(PLACES))
 
 
 def find(plane: Subdivision, p: Given) -> tuple[Spot, int]:
-    """Point location by a straight walk from a node near the point (jump-and-walk).
+    """Point location by a straight walk from a place near the point (jump-and-walk).
 
     Returns:
         The face, edge or node that contains the point; number of edges and nodes passed.
     """
-    if not plane.points:
-        return Spot(On.FACE, OUTSIDE), 0
-    node = plane.nodes.near(p)
-    start = plane.points[node]
+    if not plane.face:  # at most one point
+        is_node = plane.points == [p]
+        return Spot(On.NODE, 0) if is_node else Spot(On.FACE, OUTSIDE), 0
+    cell = plane.nodes.cell(*plane.nodes.of(p))
+    start = plane.starts.get(cell)
+    if start is None:
+        start = plane.starts[cell] = _start(plane, plane.nodes.middle(cell))
+    return _walk(plane, *start, p)
+
+
+def _start(plane: Subdivision, middle: tuple[float, float]) -> tuple[Given, Spot]:
+    """Return the middle of a cell with its face; a node near it if it has none in the hull."""
+    node = plane.nodes.near(middle)
+    at_node = plane.points[node], Spot(On.NODE, node)
+    spot, _ = _walk(plane, *at_node, middle)
+    return (middle, spot) if spot.on is On.FACE and spot.handle != OUTSIDE else at_node
+
+
+def _walk(plane: Subdivision, start: Given, spot: Spot, p: Given) -> tuple[Spot, int]:
+    """Return the result of `find` by a walk from a point, whose spot is given."""
     if p == start:
-        return Spot(On.NODE, node), 0
-    if plane.out[node] < 0:  # the only one
-        return Spot(On.FACE, OUTSIDE), 0
+        return spot, 0
     ray = Ray(plane, start, goal=p)
-    step, passed = follow(plane, ray, Spot(On.NODE, node), through_bodies=True)
+    step, passed = follow(plane, ray, spot, through_bodies=True)
     if step.end is None or ray.beyond_goal(step.end) > 0:
         return step.through, passed
     return step.end, passed

@@ -29,41 +29,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from enum import Enum
 from functools import cached_property
-from typing import Final, NamedTuple, final
-
-from mypy_extensions import i64
+from typing import Final, final
 
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, nearest_float, sign
+from exactpt.kernel.numbers import QQ, sign
 from exactpt.kernel.rounding import SLACK, TINY, U
-from exactpt.planar.halfedge import twin
-from exactpt.query.nodes import Given, exact
-from exactpt.query.subdivision import Subdivision, cross
+from exactpt.query.nodes import Given, difference, exact
+from exactpt.query.subdivision import On, Spot, Subdivision, cross
 
 _LARGEST: Final = 2.0**400
-
-
-class On(Enum):
-    """The type of cell that contains a point."""
-
-    FACE = "face"
-    EDGE = "edge"
-    NODE = "node"
-
-
-class Spot(NamedTuple):
-    """The cell of the subdivision that contains a point.
-
-    Attributes:
-        on: the interior of a face, the interior of an edge, or a node.
-        handle: the face; a half-edge of the edge; or the node.
-    """
-
-    on: On
-    handle: i64
 
 
 @final
@@ -89,7 +65,7 @@ class Ray:
         self._plane = plane
         self._sides: dict[VertexId, int] = {}
         ox, oy = plane.nodes.of(origin)
-        dx, dy = map(nearest_float, direction or self.direction)
+        dx, dy = difference((0.0, 0.0) if goal is None else origin, goal or direction or origin)
         self._near = ox, oy
         self.line = dx, dy, dx * oy - dy * ox
         size, length = max(plane.nodes.size, abs(ox), abs(oy)), abs(dx) + abs(dy)
@@ -117,7 +93,9 @@ class Ray:
 
         Doubles decide on which side the ends of the edge are.
         """
-        (ax, ay), (bx, by) = self._plane.place(h), self._plane.place(twin(h))
+        origin, nodes = self._plane.map.origin, self._plane.nodes
+        u, v = origin[h], origin[h ^ 1]
+        ax, ay, bx, by = nodes.xs[u], nodes.ys[u], nodes.xs[v], nodes.ys[v]
         (dx, dy, c), (ox, oy), off = self.line, self._near, self.off
         p, q = dx * ay - dy * ax - c, dx * by - dy * bx - c
         ux, uy, w = bx - ax, by - ay, p / (p - q)

@@ -20,9 +20,8 @@ from typing import NamedTuple, TypeAlias, final
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, in_triangle, orientation
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
-from exactpt.query.ray import On, Spot
 from exactpt.query.sleeve import Sleeves, Triangle
-from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision
 
 Corner: TypeAlias = Ends
 """A vertex, and the other end of the first wall of the corner: the free space is counter-clockwise

@@ -1,6 +1,6 @@
 """The free space at one time, and queries about it.
 
-A point is located by a straight walk through the tiling from a node near it (jump-and-walk), a
+A point is located by a straight walk through the tiling from a place near it (jump-and-walk), a
 ray is followed from tile to tile, and the shortest path of a homotopy class is found in a sleeve
 of tiles. Preparation takes O(n log n). A query takes O(edges crossed): O(k) for k bodies in a
 tiling with the minimum number of faces, O(log n) across the relative hull of a polygon in the
@@ -8,8 +8,8 @@ mixed tiling, plus the size of the tiles visited.
 
 Sources: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed); E. P. Mücke,
 I. Saias, B. Zhu, Fast randomized point location without preprocessing in two- and
-three-dimensional Delaunay triangulations, Computational Geometry 12 (1999) (jump-and-walk; the
-nodes near a point come from a grid here).
+three-dimensional Delaunay triangulations, Computational Geometry 12 (1999) (jump-and-walk; walks
+start in the middle of a cell of a grid here).
 """
 
 from __future__ import annotations

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from bisect import insort
 from collections.abc import Iterator, Sequence
+from enum import Enum
 from functools import cached_property
-from typing import Final, TypeAlias, final
+from typing import Final, NamedTuple, TypeAlias, final
 
 from mypy_extensions import i64
 
@@ -23,13 +24,33 @@ from exactpt.motion.body import Body
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
 from exactpt.query.hull import Hull
-from exactpt.query.nodes import Nodes
+from exactpt.query.nodes import Given, Nodes
 
 OUTSIDE: Final = -1
 """The face outside the convex hull."""
 
 Corner: TypeAlias = tuple[float, float, HalfEdge]
 """A node on the boundary of a face, in doubles (`Nodes`), and the half-edge that ends at it."""
+
+
+class On(Enum):
+    """The type of cell that contains a point."""
+
+    FACE = "face"
+    EDGE = "edge"
+    NODE = "node"
+
+
+class Spot(NamedTuple):
+    """The cell of the subdivision that contains a point.
+
+    Attributes:
+        on: the interior of a face, the interior of an edge, or a node.
+        handle: the face; a half-edge of the edge; or the node.
+    """
+
+    on: On
+    handle: i64
 
 
 def cross(u: Point, v: Point) -> QQ:
@@ -59,6 +80,7 @@ class Subdivision:
         names: names of the bodies, in the order of the scene.
         first: first node of each body; the last entry is the number of nodes.
         body: index of the body of each node.
+        starts: where walks to the points of a cell of the nodes' grid begin, if some did.
     """
 
     def __init__(self, snapshot: Snapshot, bodies: Sequence[Body]) -> None:
@@ -77,6 +99,7 @@ class Subdivision:
         self.boundary = [edge.kind == "boundary" for edge in snapshot.edges]
         self.cycles: dict[int, list[HalfEdge]] = {}
         self._link(bodies)
+        self.starts: dict[tuple[int, int], tuple[Given, Spot]] = {}
         self._outlines: dict[int, list[list[Corner]]] = {}
         self._ahead: list[list[Corner] | None] = [None] * len(self.face)
 

@@ -8,13 +8,14 @@ of which they leave one node or one order open is decided by exact arithmetic.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
-from exactpt.query.ray import On, Ray, Spot
-from exactpt.query.subdivision import OUTSIDE, Subdivision, cross
+from exactpt.query.ray import Ray
+from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision, cross
 
 
 class RayStep(NamedTuple):
@@ -63,51 +64,50 @@ def follow(
         elif plane.boundary[end.handle >> 1] and not through_bodies:
             break
         else:
-            h, more, last = _across_faces(
-                plane, ray, twin(HalfEdge(end.handle)), through_bodies=through_bodies
-            )
+            h = twin(HalfEdge(end.handle))
+            step, more = _across_faces(plane, ray, h, through_bodies=through_bodies)
             passed += more
-            if last != NO_HALF_EDGE:
-                step = RayStep(Spot(On.FACE, plane.face[h]), Spot(On.EDGE, last))
-            else:
-                step = _through_face(plane, ray, plane.face[h], Spot(On.EDGE, h), h)
+            if step.end is not None and step.end.on is On.EDGE:
+                return step, passed + 1
         passed += 1
     return step, passed
 
 
 def _across_faces(
     plane: Subdivision, ray: Ray, entry: HalfEdge, *, through_bodies: bool
-) -> tuple[HalfEdge, int, HalfEdge]:
-    """Follow a ray from edge to edge, as long as doubles decide that a face has a single end.
+) -> tuple[RayStep, int]:
+    """Follow a ray from edge to edge, up to a node or to an edge at which `follow` ends.
 
     Around a face from its entry edge on, which the ray crosses from left to right, corners are to
-    the right of it up to the end, and then to the left, the last one certainly. Without the
-    difference, v is off by 8 U M S, and c + off or c - off by less than 2 U M S more (`Ray`).
+    the right of it up to the end, and then to the left, the last one certainly: most often. Without
+    the difference, v is off by 8 U M S, and c + off or c - off by less than 2 U M S more (`Ray`).
 
     Returns:
-        The entry edge of the last face; the number of edges crossed after that of the first one;
-        the edge at which `follow` ends; -1 if doubles do not decide the step through the face.
+        The last step; the number of edges crossed after the entry edge.
     """
     (dx, dy, c), crossed = ray.line, 0
     right, left = c - ray.off, c + ray.off
-    has_goal, boundary = ray.goal is not None, plane.boundary
+    has_goal, faces, boundary = ray.goal is not None, plane.face, plane.boundary
     while True:
-        corners = iter(plane.ahead(entry))
-        for x, y, end in corners:  # noqa: B007 - used below
+        end, corners = NO_HALF_EDGE, iter(plane.ahead(entry))
+        for x, y, h in corners:
             value = dx * y - dy * x
             if not value < right:
+                end = h if value > left else NO_HALF_EDGE
                 break
-        else:
-            return entry, crossed, NO_HALF_EDGE
-        if not value > left:
-            return entry, crossed, NO_HALF_EDGE
         for x, y, _ in corners:
             if not dx * y - dy * x > left:
-                return entry, crossed, NO_HALF_EDGE
+                end = NO_HALF_EDGE
+                break
+        if end == NO_HALF_EDGE:
+            step = _through_face(plane, ray, faces[entry], Spot(On.EDGE, entry), entry)
+            if step.end is None or step.end.on is On.NODE:
+                return step, crossed
+            end = HalfEdge(step.end.handle)
         is_wall = boundary[end >> 1] and not through_bodies
         if is_wall or (has_goal and ray.beyond_at_edge(end) >= 0):
-            return entry, crossed, end
-        entry, crossed = HalfEdge(end ^ 1), crossed + 1
+            return RayStep(Spot(On.FACE, faces[entry]), Spot(On.EDGE, end)), crossed
+        entry, crossed = twin(end), crossed + 1
 
 
 def _step_from(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
@@ -216,13 +216,16 @@ def _first_ahead(ray: Ray, ends: Sequence[HalfEdge], entry: HalfEdge) -> list[Ha
     It starts at the entry edge, or at its origin if there is none.
     """
     low, high = (0.0, 0.0) if entry == NO_HALF_EDGE else ray.place_of(entry)
-    bounds = [(*ray.place_of(h), h) for h in ends]
-    ahead = sorted((last, first, h) for first, last, h in bounds if first > high)
-    if len(ahead) + sum(last < low for _, last, _ in bounds) < len(bounds) or any(
-        not ahead[0][0] < first for _, first, _ in ahead[1:]
-    ):
-        return None
-    return [h for *_, h in ahead[:1]]
+    best: list[HalfEdge] = []
+    start = stop = math.inf
+    for h in ends:
+        first, last = ray.place_of(h)
+        if last < low or stop < first:
+            continue
+        if not high < first or not last < start:
+            return None
+        best, start, stop = [h], first, last
+    return best
 
 
 def _exactly_through_face(

@@ -9,10 +9,11 @@ import pytest
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation
 from exactpt.indices import NO_HALF_EDGE, HalfEdge
 from exactpt.pairs.start import initial_touches
-from exactpt.query import ray, walk
+from exactpt.query import locate, nodes, ray, walk
 from exactpt.query.answers import PLACES
 from exactpt.query.nodes import Nodes
-from exactpt.query.ray import On, Ray, Spot
+from exactpt.query.ray import Ray
+from exactpt.query.subdivision import On, Spot
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling.start import start_tiling
 
@@ -60,7 +61,7 @@ def located(space, points):
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_locations_depend_neither_on_the_first_node_nor_on_doubles(monkeypatch, family):
+def test_locations_depend_neither_on_where_a_walk_starts_nor_on_doubles(monkeypatch, family):
     scene, random = generate(family, 1), Random(f"jump {family}")
     if initial_touches(scene)[1]:
         return
@@ -69,10 +70,14 @@ def test_locations_depend_neither_on_the_first_node_nor_on_doubles(monkeypatch, 
     rays = [space.ray_cast(p, (3, -1)) for p in points]
 
     monkeypatch.setattr(ray, "_LARGEST", 0.0)  # no double decides
+    space._plane.starts.clear()
     assert located(space, points) == expected
     assert [space.ray_cast(p, (3, -1)) for p in points] == rays
     monkeypatch.setattr(Nodes, "near", lambda *_: 0)
-    assert located(space, points) == expected
+    for middle in (points[0], (1e9, 1e9)):
+        monkeypatch.setattr(Nodes, "middle", lambda *_, middle=middle: middle)
+        space._plane.starts.clear()
+        assert located(space, points) == expected
 
 
 def test_doubles_decide_no_step_that_they_may_not(monkeypatch):
@@ -95,15 +100,13 @@ def test_doubles_decide_no_step_that_they_may_not(monkeypatch):
         return found
 
     def across_one_by_one(plane, of, entry, *, through_bodies):
-        last, passed, end = across(plane, of, entry, through_bodies=through_bodies)
+        last, passed = across(plane, of, entry, through_bodies=through_bodies)
         h = entry
         for _ in range(passed):
             step = exactly(plane, of, plane.face[h], Spot(On.EDGE, h), h)
             h = HalfEdge(step.end.handle ^ 1)
-        assert h == last
-        step = exactly(plane, of, plane.face[h], Spot(On.EDGE, h), h)
-        assert end in (NO_HALF_EDGE, step.end and step.end.handle)
-        return last, passed, end
+        assert last == exactly(plane, of, plane.face[h], Spot(On.EDGE, h), h)
+        return last, passed
 
     across = walk._across_faces
     monkeypatch.setattr(walk, "_through_face", both)
@@ -174,6 +177,24 @@ def test_many_locations_of_none_and_of_unusable_points():
         space.locate_many([1.0, 2.0, 3.0])
     with pytest.raises(InputError, match="row 1 is not finite"):
         space.locate_many([[0.0, 0.0], [np.nan, 0.0]])
+
+
+def test_a_location_takes_one_walk_and_no_rational_number_in_a_known_cell(monkeypatch):
+    """It started at a node, around which half-edges were compared, with a rational direction."""
+    space = Simulation(generate("convex", 5)).space()
+    random, made, rational = Random("cells"), [], nodes.rational
+    ends = [(float(node.x), float(node.y)) for node in space.snapshot.nodes]
+    points = [(x + random.random(), y + random.random()) for x, y in ends]
+    monkeypatch.setattr(nodes, "rational", lambda value: made.append(value) or rational(value))
+    places = [space.locate(point) for point in points]
+    assert made
+    made.clear()
+    walks, walk_from = [], locate._walk
+    monkeypatch.setattr(locate, "_walk", lambda *a: walks.append(a[1]) or walk_from(*a))
+    assert [space.locate(point) for point in points] == places
+    from_middles = [type(x) is float for x, _ in walks]
+    assert len(points) == len(walks) < 2 * sum(from_middles)
+    assert len(made) <= 6 * (len(walks) - sum(from_middles))
 
 
 def test_walks_are_short():
