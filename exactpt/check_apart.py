@@ -51,9 +51,9 @@ def longest(integers: Iterable[int]) -> int: return words(max(map(abs, integers)
 class Poly(tuple[Any, ...]):
     __slots__ = ()
     def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
-        f = tuple.__new__(cls, coefficients); n = len(f)
-        while n and (not f[n - 1]): n -= 1
-        return f if n == len(f) else tuple.__new__(cls, f[:n])
+        f = tuple.__new__(cls, coefficients)
+        while f and (not f[-1]): f = tuple.__new__(cls, f[:-1])
+        return f
     def __add__(self, g: 'Poly') -> 'Poly':
         both = self and g; return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)]) if both else self or g
     def __sub__(self, g: 'Poly') -> 'Poly': return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
@@ -64,7 +64,7 @@ class Poly(tuple[Any, ...]):
         for i, a in enumerate(self):
             for j, b in enumerate(g): product[i + j] += a * b
         return Poly(product)
-Track = tuple[Poly, Poly, Poly]; Whole = tuple[int, int, int]; Entry = TypeVar('Entry', int, Poly)
+Track = tuple[Poly, Poly, Poly]; Whole = tuple[int, int, int]; Rows = list[Whole]; Entry = TypeVar('Entry', int, Poly)
 Triple = tuple[Entry, Entry, Entry]; ONE, ZERO = (Poly([Fraction(1)]), Poly())
 Poses = tuple[Point, list[Fraction], list[list[Poly]]]
 def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
@@ -117,6 +117,7 @@ def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     return odd
 NUMBER = re.compile('([+-]?)(\\d*+)(?:/(\\d++)|\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?)', re.ASCII); MAX_BITS = 33220
 MAX_DIGITS = 10000; MAX_DEGREE = 64
+BODY_KEYS = 'motion closed holes radius properties vertices keyframes parts'.split()
 MOTION_KEYS = {'': ([], ['x', 'y']), 'affine': (['matrix'], ['x', 'y']), 'rigid': (['half_turn'], ['x', 'y', 'pivot', 'orientation'])}
 class Bare(str): __slots__ = ()
 def need(condition: object, what: str, data: Json='') -> None:
@@ -125,6 +126,7 @@ def number(data: Json) -> Fraction:
     need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, 'not a number:', data); return rational(data)
 @lru_cache(1000)
 def rational(data: str) -> Fraction:
+    if data.removeprefix('-').isdecimal() and data.isascii() and (len(data) <= MAX_DIGITS): return Fraction(int(data))
     match = NUMBER.fullmatch(data); minus, units, under, decimals, exponent = match.groups('') if match else [''] * 5
     need(units or decimals, 'not a number:', data); need(not under or under.strip('0'), 'a denominator is zero:', data)
     power, n = (int(exponent or 0), int(minus + units + decimals))
@@ -134,10 +136,10 @@ def rational(data: str) -> Fraction:
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
 def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> dict[str, Json]:
-    known = isinstance(data, dict) and set(required) <= set(data) <= {*required, *optional}
-    need(known, 'not an object, or with other keys:', data); return dict(data)
+    known = isinstance(data, dict) and {*required} <= data.keys() <= {*required, *optional}
+    need(known, 'not an object, or with other keys:', data); return data
 def entries(data: Json, length: int | None=None) -> list[Json]:
-    need(isinstance(data, list) and length in (None, len(data)), 'not a list as needed:', data); return list(data)
+    need(isinstance(data, list) and length in (None, len(data)), 'not a list as needed:', data); return data
 def check_json(data: Json, levels: int) -> None:
     is_text = isinstance(data, str) and (data.isascii() or not re.search('[\ud800-\udfff]', data))
     need(is_text or not isinstance(data, (str, float)), 'a number or text that is none:', data)
@@ -148,9 +150,10 @@ def polynomial(data: Json) -> Poly: return Poly([number(c) for c in entries(data
 def degree(*polynomials: Poly) -> int: return max(1, *map(len, polynomials)) - 1
 class Motion:
     def __init__(self, data: Json, of_shape: int) -> None:
-        kind = next((k for k in ('rigid', 'affine') if isinstance(data, dict) and k in data), '')
+        has = data if isinstance(data, dict) else ()
+        kind = 'rigid' if 'rigid' in has else 'affine' if 'affine' in has else ''
         given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
-        x, y = (polynomial(given.get(k, [])) for k in 'xy')
+        x, y = (polynomial(given.get('x', [])), polynomial(given.get('y', [])))
         m, high = ([ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y)))
         if kind == 'affine':
             m = [polynomial(p) for row in entries(given['matrix'], 2) for p in entries(row, 2)]
@@ -167,29 +170,30 @@ class Motion:
         e, f, w = cleared(x, y); self.form = cleared(*form)[:7] if kind else (w, ZERO, ZERO, w, e, f, w)
         self.columns = [*zip_longest(*self.form, fillvalue=0)]
         self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
-    def track(self, x: Poly, y: Poly, z: Poly) -> Track:
-        rows = [*zip_longest(x, y, z, fillvalue=0)]
+    def track(self, rows: Rows) -> Track:
         WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
-        found = [[0] * (len(self.columns) + len(rows) - 1) for _ in 'xyw']
+        xs, ys, ws = ([0] * (len(self.columns) + len(rows) - 1) for _ in 'xyw')
         for i, (p, q, r) in enumerate(rows):
             for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
-                found[0][j] += a * p + b * q + e * r; found[1][j] += c * p + d * q + f * r; found[2][j] += w * r
-        m = gcd(*chain(*found)); x, y, w = (Poly([k // m for k in g]) for g in found); return (x, y, w)
+                xs[j] += a * p + b * q + e * r; ys[j] += c * p + d * q + f * r; ws[j] += w * r
+        m = gcd(*xs, *ys, *ws); x, y, w = [Poly([k // m for k in f]) for f in (xs, ys, ws)]; return (x, y, w)
 def cleared(*given: Poly) -> tuple[Poly, ...]:
-    m = lcm(*[q.denominator for q in chain(*given)]); WORK.spend(words(m) ** 2 * sum(map(len, given)))
-    return (*(Poly([q.numerator * (m // q.denominator) for q in f]) for f in given), Poly([m]))
+    ratios = [[q.as_integer_ratio() for q in f] for f in given]; m = lcm(*[d for f in ratios for _, d in f])
+    WORK.spend(words(m) ** 2 * sum(map(len, given)))
+    return (*[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m]))
+def rows_of(x: Poly, y: Poly) -> Rows: return [*zip_longest(*cleared(x, y), fillvalue=0)]
 class Body:
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
-        shape = ('vertices', 'keyframes', 'parts')
-        body = keys(data, ['name'], ['motion', 'closed', 'holes', 'radius', 'properties', *shape])
-        need(sum((key in body for key in shape)) == 1, 'vertices or keyframes or parts:', data)
+        body = keys(data, ['name'], BODY_KEYS)
+        shapes = ('vertices' in body) + ('keyframes' in body) + ('parts' in body)
+        need(shapes == 1, 'vertices or keyframes or parts:', data)
         need('holes' not in body or 'vertices' in body, 'holes without vertices:', data)
         self.name, closed = (body['name'], body.get('closed', True))
         need(type(self.name) is str and self.name, 'a name:', self.name)
         need(isinstance(closed, bool), 'closed:', closed); self.radius = number(body.get('radius', '0'))
         need(self.radius.numerator >= 0, 'a radius:', body.get('radius'))
-        need(isinstance(body.get('properties', {}), dict), 'properties:', self.name)
-        check_json([self.name, body.get('properties')], 30)
+        need(isinstance(body.get('properties', {}), dict), 'properties:', self.name); check_json(self.name, 0)
+        check_json(body.get('properties'), 29)
         parts = [keys(p, ['vertices'], ['holes']) for p in entries(body.get('parts', []))]
         need(parts or 'parts' not in body, 'no parts:', data)
         of = [(p.get('vertices', []), *entries(p.get('holes', []))) for p in parts or [body]]
@@ -201,22 +205,21 @@ class Body:
         self.first, self.size = (first, len(self.frames[0][1] if self.frames else self.shape))
         need(self.size, 'no vertices:', self.name); self.read_motion(body.get('motion', {}))
         self.vertices, self.closed = (range(first, first + self.size), closed and self.size > 2)
-        self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)}); self.parts: list[list[range]] = []
+        self.breaks = sorted({*self.ends, *dict(self.frames)}); self.parts: list[list[range]] = []
         for part in rings if several else [[self.vertices]]:
             bounds = accumulate(map(len, part), initial=first)
             self.parts.append([range(i, j) for i, j in pairwise(bounds)]); first = self.parts[-1][-1].stop
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         ends = [(ring, [(ring[-1], ring[0])][:self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks, self.at_start = (dict[tuple[int, int], Track](), self.places(start))
+        self.tracks: dict[tuple[int, int], Track] = {}; self.at_start = self.places(start)
         self.check_simple(self.at_start)
     def read_motion(self, data: Json) -> None:
-        of_shape = 1 if self.frames else degree(*chain(*self.shape))
-        several = isinstance(data, dict) and 'pieces' in data
-        given = keys(data, ['pieces'], ['spin', 'path']) if several else {}
-        need(len(given) < 3, 'both a spin and a path:', data)
-        pieces = entries(given['pieces']) if several else [{'motion': data}]
-        rows = [keys(p, ['motion'], ['until']) for p in pieces]
+        of_shape = 1 if self.frames else max(map(len, self.shape)) - 1; self.ends: list[Fraction] = []
+        self.spin = self.path = None
+        if not isinstance(data, dict) or 'pieces' not in data: self.motions = [Motion(data, of_shape)]; return
+        given = keys(data, ['pieces'], ['spin', 'path']); need(len(given) < 3, 'both a spin and a path:', data)
+        rows = [keys(p, ['motion'], ['until']) for p in entries(given['pieces'])]
         whole = rows and 'until' not in rows[-1] and all(('until' in p for p in rows[:-1]))
         need(whole, '"until" belongs to all pieces but the last:', data)
         self.ends = [number(p['until']) for p in rows[:-1]]
@@ -229,19 +232,20 @@ class Body:
                 need(same, f'{self.name!a} jumps at t = {t}')
         self.spin = spin_of(given['spin']) if 'spin' in given else None
         self.path = path_of(given['path']) if 'path' in given else None
-    def coordinates(self, i: int, t: Fraction) -> tuple[Poly, ...]:
+    def rows(self, i: int, t: Fraction) -> Rows:
         if not self.frames: return self.shape[i]
         (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
-        return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+        return rows_of(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
     def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
         k = bisect_right(self.frames, t, key=lambda frame: frame[0])
         return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
         motion = motion or self.motions[bisect_right(self.ends, t)]
         a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * longest(form)))
-        shape = (values(self.coordinates(i, t), t) for i in range(self.size))
-        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
+        shape = [self.rows(i, t) for i in range(self.size)] if self.frames else self.shape
+        at = [k[0] if len(k) < 2 else values([*map(Poly, zip(*k, strict=True))], t) for k in shape]
+        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in at]
     def check_simple(self, places: Sequence[Whole]) -> None:
         need(is_simple(places, self.edges, self.first), f'{self.name!a} is not simple at the start')
         if len(self.rings) == 1: return
@@ -257,16 +261,14 @@ class Body:
     def track(self, i: int, after: Fraction) -> Track:
         key = (i, bisect_right(self.breaks, after))
         if key not in self.tracks:
-            motion = self.motions[bisect_right(self.ends, after)]
-            self.tracks[key] = motion.track(*self.coordinates(i, after))
+            motion = self.motions[bisect_right(self.ends, after)]; self.tracks[key] = motion.track(self.rows(i, after))
         return self.tracks[key]
 def point(data: Json) -> Point: x, y = map(number, entries(data, 2)); return (x, y)
-def vertex(data: Json) -> tuple[Poly, ...]:
+def vertex(data: Json) -> Rows:
     if isinstance(data, dict):
-        given = keys(data, optional=['x', 'y']); return cleared(*(polynomial(given.get(k, [])) for k in 'xy'))
-    x, y = point(data); m = lcm(x.denominator, y.denominator)
-    p, q = (x.numerator * (m // x.denominator), y.numerator * (m // y.denominator))
-    return (Poly([p]), Poly([q]), Poly([m]))
+        given = keys(data, optional=['x', 'y']); return rows_of(*(polynomial(given.get(k, [])) for k in 'xy'))
+    (p, d), (q, e) = (x.as_integer_ratio() for x in point(data)); m = lcm(d, e)
+    return [(p * (m // d), q * (m // e), m)]
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     frames = [keys(f, ['t', 'vertices']) for f in entries(data)]
     path = [(number(f['t']), [*map(point, entries(f['vertices']))]) for f in frames]
@@ -420,16 +422,17 @@ def planes_of(x: int, y: int, c: Fraction, v: Fraction, r: Fraction, far: Fracti
         low, high = c - norm * r, c + norm * (r + far)
     d = lcm(v.denominator, low.denominator, high.denominator)
     z, p, q = (-k.numerator * (d // k.denominator) for k in (v, low, high))
-    return (d * x, d * y, z, p), (d * x, d * y, z, q)
+    below = d * x, d * y, z, p
+    return below, below if p == q else (d * x, d * y, z, q)
 
 
 def side_of(points: Hull, low: Plane, high: Plane) -> int:
     """-1 if points are below a first plane, 1 if none of them is below a second one, else 0."""
     a, b, t, c = low
     of = [a * x + b * y + t * z + c * w for x, y, z, w in points]
-    if low != high and max(of) >= 0:
-        return max(0, side_of(points, high, high))
-    return -1 if max(of) < 0 else int(min(of) >= 0)
+    if max(of) < 0:
+        return -1
+    return int(min(of) >= 0) if low is high else max(0, side_of(points, high, high))
 
 
 def are_near(places: Sequence[Whole], far: Fraction) -> bool:

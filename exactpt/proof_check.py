@@ -122,10 +122,9 @@ class Poly(tuple[Any, ...]):
 
     def __new__(cls, coefficients: Iterable[Any] = ()) -> "Poly":  # noqa: D102
         f = tuple.__new__(cls, coefficients)
-        n = len(f)
-        while n and not f[n - 1]:
-            n -= 1
-        return f if n == len(f) else tuple.__new__(cls, f[:n])
+        while f and not f[-1]:
+            f = tuple.__new__(cls, f[:-1])
+        return f
 
     def __add__(self, g: "Poly") -> "Poly":  # type: ignore[override]
         both = self and g
@@ -385,6 +384,7 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
 
 Track = tuple[Poly, Poly, Poly]
 Whole = tuple[int, int, int]
+Rows = list[Whole]  # of a vertex at (x / z, y / z): coefficients of x, y and z, by powers of t
 Entry = TypeVar("Entry", int, Poly)
 Triple = tuple[Entry, Entry, Entry]
 Turn = tuple[Poly, Point, Json]  # the half turn, the orientation, and the rest
@@ -497,6 +497,7 @@ MAX_DIGITS = 10_000  # of one in a proof
 MAX_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
 
 
+BODY_KEYS = "motion closed holes radius properties vertices keyframes parts".split()
 MOTION_KEYS = {  # required, and optional
     "": ([], ["x", "y"]),
     "affine": (["matrix"], ["x", "y"]),
@@ -525,6 +526,8 @@ def number(data: Json) -> Fraction:
 @lru_cache(1000)
 def rational(data: str) -> Fraction:
     """Return the rational that a text of few characters denotes; many are there several times."""
+    if data.removeprefix("-").isdecimal() and data.isascii() and len(data) <= MAX_DIGITS:
+        return Fraction(int(data))
     match = NUMBER.fullmatch(data)
     minus, units, under, decimals, exponent = match.groups("") if match else [""] * 5
     need(units or decimals, "not a number:", data)
@@ -541,15 +544,15 @@ def rational(data: str) -> Fraction:
 
 def keys(data: Json, required: Sequence[str] = (), optional: Sequence[str] = ()) -> dict[str, Json]:
     """Return a JSON object with all of the required keys, and no others but the optional ones."""
-    known = isinstance(data, dict) and set(required) <= set(data) <= {*required, *optional}
+    known = isinstance(data, dict) and {*required} <= data.keys() <= {*required, *optional}
     need(known, "not an object, or with other keys:", data)
-    return dict(data)
+    return data  # type: ignore[no-any-return]
 
 
 def entries(data: Json, length: int | None = None) -> list[Json]:
     """Return a JSON list, of this length if one is given."""
     need(isinstance(data, list) and length in (None, len(data)), "not a list as needed:", data)
-    return list(data)
+    return data  # type: ignore[no-any-return]
 
 
 def check_json(data: Json, levels: int) -> None:
@@ -580,9 +583,10 @@ class Motion:
 
     def __init__(self, data: Json, of_shape: int) -> None:
         self.rigid: Turn | None = None  # own
-        kind = next((k for k in ("rigid", "affine") if isinstance(data, dict) and k in data), "")
+        has = data if isinstance(data, dict) else ()
+        kind = "rigid" if "rigid" in has else "affine" if "affine" in has else ""
         given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
-        x, y = (polynomial(given.get(k, [])) for k in "xy")
+        x, y = polynomial(given.get("x", [])), polynomial(given.get("y", []))
         m, high = [ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y))
         if kind == "affine":
             m = [polynomial(p) for row in entries(given["matrix"], 2) for p in entries(row, 2)]
@@ -606,26 +610,31 @@ class Motion:
         self.columns = [*zip_longest(*self.form, fillvalue=0)]
         self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
 
-    def track(self, x: Poly, y: Poly, z: Poly) -> Track:
-        """Return the track of a vertex at (x / z, y / z)."""
-        rows = [*zip_longest(x, y, z, fillvalue=0)]
+    def track(self, rows: Rows) -> Track:
+        """Return the track of a vertex."""
         WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
-        found = [[0] * (len(self.columns) + len(rows) - 1) for _ in "xyw"]
+        xs, ys, ws = ([0] * (len(self.columns) + len(rows) - 1) for _ in "xyw")
         for i, (p, q, r) in enumerate(rows):
             for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
-                found[0][j] += a * p + b * q + e * r
-                found[1][j] += c * p + d * q + f * r
-                found[2][j] += w * r
-        m = gcd(*chain(*found))
-        x, y, w = (Poly([k // m for k in g]) for g in found)
+                xs[j] += a * p + b * q + e * r
+                ys[j] += c * p + d * q + f * r
+                ws[j] += w * r
+        m = gcd(*xs, *ys, *ws)
+        x, y, w = [Poly([k // m for k in f]) for f in (xs, ys, ws)]
         return x, y, w
 
 
 def cleared(*given: Poly) -> tuple[Poly, ...]:
     """Return polynomials times their common denominator, and this number."""
-    m = lcm(*[q.denominator for q in chain(*given)])
+    ratios = [[q.as_integer_ratio() for q in f] for f in given]
+    m = lcm(*[d for f in ratios for _, d in f])
     WORK.spend(words(m) ** 2 * sum(map(len, given)))
-    return *(Poly([q.numerator * (m // q.denominator) for q in f]) for f in given), Poly([m])
+    return *[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m])
+
+
+def rows_of(x: Poly, y: Poly) -> Rows:
+    """Return the rows of a vertex at (x, y)."""
+    return [*zip_longest(*cleared(x, y), fillvalue=0)]
 
 
 class Body:
@@ -637,9 +646,9 @@ class Body:
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
-        shape = "vertices", "keyframes", "parts"
-        body = keys(data, ["name"], ["motion", "closed", "holes", "radius", "properties", *shape])
-        need(sum(key in body for key in shape) == 1, "vertices or keyframes or parts:", data)
+        body = keys(data, ["name"], BODY_KEYS)
+        shapes = ("vertices" in body) + ("keyframes" in body) + ("parts" in body)
+        need(shapes == 1, "vertices or keyframes or parts:", data)
         need("holes" not in body or "vertices" in body, "holes without vertices:", data)
         self.name, closed = body["name"], body.get("closed", True)
         need(type(self.name) is str and self.name, "a name:", self.name)
@@ -647,7 +656,8 @@ class Body:
         self.radius = number(body.get("radius", "0"))
         need(self.radius.numerator >= 0, "a radius:", body.get("radius"))
         need(isinstance(body.get("properties", {}), dict), "properties:", self.name)
-        check_json([self.name, body.get("properties")], 30)
+        check_json(self.name, 0)
+        check_json(body.get("properties"), 29)
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
         need(parts or "parts" not in body, "no parts:", data)
         of = [(p.get("vertices", []), *entries(p.get("holes", []))) for p in parts or [body]]
@@ -661,7 +671,7 @@ class Body:
         need(self.size, "no vertices:", self.name)
         self.read_motion(body.get("motion", {}))
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
-        self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)})
+        self.breaks = sorted({*self.ends, *dict(self.frames)})
         self.parts: list[list[range]] = []
         for part in rings if several else [[self.vertices]]:
             bounds = accumulate(map(len, part), initial=first)
@@ -670,17 +680,21 @@ class Body:
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         ends = [(ring, [(ring[-1], ring[0])][: self.closed]) for ring, _ in self.rings]
         self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks, self.at_start = dict[tuple[int, int], Track](), self.places(start)
+        self.tracks: dict[tuple[int, int], Track] = {}
+        self.at_start = self.places(start)
         self.check_simple(self.at_start)
 
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
-        of_shape = 1 if self.frames else degree(*chain(*self.shape))
-        several = isinstance(data, dict) and "pieces" in data
-        given = keys(data, ["pieces"], ["spin", "path"]) if several else {}
+        of_shape = 1 if self.frames else max(map(len, self.shape)) - 1
+        self.ends: list[Fraction] = []
+        self.spin = self.path = None
+        if not isinstance(data, dict) or "pieces" not in data:
+            self.motions = [Motion(data, of_shape)]
+            return
+        given = keys(data, ["pieces"], ["spin", "path"])
         need(len(given) < 3, "both a spin and a path:", data)
-        pieces = entries(given["pieces"]) if several else [{"motion": data}]
-        rows = [keys(p, ["motion"], ["until"]) for p in pieces]
+        rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
         whole = rows and "until" not in rows[-1] and all("until" in p for p in rows[:-1])
         need(whole, '"until" belongs to all pieces but the last:', data)
         self.ends = [number(p["until"]) for p in rows[:-1]]
@@ -697,13 +711,13 @@ class Body:
         right = right and (not self.path or follows(self.ends, self.motions, self.path))  # own
         need(right, "not such a path or spin:", data)  # own
 
-    def coordinates(self, i: int, t: Fraction) -> tuple[Poly, ...]:
-        """Return (x, y, z) of vertex i at (x / z, y / z), before motions; at rest off frames."""
+    def rows(self, i: int, t: Fraction) -> Rows:
+        """Return the rows of vertex i before motions; off frames it is at rest."""
         if not self.frames:
             return self.shape[i]
         (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
-        return cleared(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+        return rows_of(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
 
     def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
         """Return the frames before and after a time."""
@@ -715,8 +729,9 @@ class Body:
         motion = motion or self.motions[bisect_right(self.ends, t)]
         a, b, c, d, e, f, w = form = values(motion.form, t)
         WORK.spend(self.size * (1000 + 30 * longest(form)))
-        shape = (values(self.coordinates(i, t), t) for i in range(self.size))
-        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in shape]
+        shape = [self.rows(i, t) for i in range(self.size)] if self.frames else self.shape
+        at = [k[0] if len(k) < 2 else values([*map(Poly, zip(*k, strict=True))], t) for k in shape]
+        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in at]
 
     def check_simple(self, places: Sequence[Whole]) -> None:
         """Check that edges meet only where joined, and that holes and parts are in place."""
@@ -741,7 +756,7 @@ class Body:
         key = i, bisect_right(self.breaks, after)
         if key not in self.tracks:
             motion = self.motions[bisect_right(self.ends, after)]
-            self.tracks[key] = motion.track(*self.coordinates(i, after))
+            self.tracks[key] = motion.track(self.rows(i, after))
         return self.tracks[key]
 
     def keeps_lengths(self, t: Fraction) -> bool:
@@ -751,7 +766,7 @@ class Body:
             (_, p), (_, q) = self.around(t)
             WORK.spend(self.size * (500 + 8 * most_words(chain(*p, *q)) ** 2))
             return keeps and len({(c - a, d - b) for (a, b), (c, d) in zip(p, q, strict=True)}) == 1
-        (f, g, h), *others = self.shape
+        (f, g, h), *others = ([*map(Poly, zip(*rows, strict=True))] for rows in self.shape)
         WORK.spend(self.size * (500 + 8 * most_words(chain(f, g, h)) ** 2))
         same = all((f * w)[1:] == (x * h)[1:] and (g * w)[1:] == (y * h)[1:] for x, y, w in others)
         return keeps and same
@@ -763,15 +778,14 @@ def point(data: Json) -> Point:
     return x, y
 
 
-def vertex(data: Json) -> tuple[Poly, ...]:
-    """Return (x, y, z) of a vertex at (x / z, y / z): two numbers, or polynomials x and y."""
+def vertex(data: Json) -> Rows:
+    """Return the rows of a vertex: two numbers, or polynomials x and y."""
     if isinstance(data, dict):
         given = keys(data, optional=["x", "y"])
-        return cleared(*(polynomial(given.get(k, [])) for k in "xy"))
-    x, y = point(data)
-    m = lcm(x.denominator, y.denominator)
-    p, q = x.numerator * (m // x.denominator), y.numerator * (m // y.denominator)
-    return Poly([p]), Poly([q]), Poly([m])
+        return rows_of(*(polynomial(given.get(k, [])) for k in "xy"))
+    (p, d), (q, e) = (x.as_integer_ratio() for x in point(data))
+    m = lcm(d, e)
+    return [(p * (m // d), q * (m // e), m)]
 
 
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
