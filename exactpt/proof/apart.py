@@ -15,8 +15,8 @@ import numpy as np
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
-from exactpt.proof.frame import DIRECTIONS, Cut, Extents, Floats, Frame
-from exactpt.proof.paths import Items, Paths, Plane
+from exactpt.proof.frame import Cut, Extents, Frame
+from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane
 from exactpt.proof.whole import MOST, WholeBodies
 
 CLEAR: Final = 1e-11

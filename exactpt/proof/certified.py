@@ -261,8 +261,9 @@ class _Certificate:
             return [self._meetings.at(sorted(pairs), touches, start)], start
         near = (self.end - start) / 2**NEAR * (3 if low == high else 1)
         near = min(near, (low - start) / 4)
-        until = short(low - near, float(near) / 4)
-        later = (short(high + near * k / 4, float(near) / 8) for k in (1, 4, 7))
+        until = fraction(short(rational(low - near), float(near) / 4))
+        units = (rational(high + near * k / 4) for k in (1, 4, 7))
+        later = (fraction(short(t, float(near) / 8)) for t in units)
         times = [high] * (low == high) + [min(t, self.end) for t in later]
         for t in times:
             with suppress(Rejected):

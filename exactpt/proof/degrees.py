@@ -40,7 +40,7 @@ def _degree_of_shape(body: Body) -> int:
     shape = body._shape
     if shape.keyframes:
         return 1
-    if shape.doubles is not None:
+    if shape.near is not None:
         return 0
     return max(0, *(f.degree for position in shape.positions for f in position))
 

@@ -15,26 +15,24 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 import numpy as np
 
 from exactpt.check_apart import Interval, planes_of, side_of
-from exactpt.kernel.numbers import rational
-from exactpt.proof.paths import Items, Paths, Plane, short
+from exactpt.kernel.numbers import QQ, fraction, of_double, rational
+from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane, short
 
 if TYPE_CHECKING:
-    from exactpt.kernel.numbers import QQ
     from exactpt.proof.whole import WholeBodies
 
-Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 Extents: TypeAlias = "tuple[Floats, Floats]"
 Points: TypeAlias = "list[tuple[float, float, float]]"
 Place: TypeAlias = "tuple[float, float]"
 Moved: TypeAlias = "tuple[tuple[Sequence[float], Sequence[float], bool], Place, Place]"
 
-DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
 ERROR: Final = 1e-12
 """Bound of the error of a test, relative to the sum of the largest sizes of its terms.
 
 Coordinates of control points are within 4 * 2^-53 of the size: correctly rounded quotients, or
 sums of two or three doubles near numbers that are not larger than it. A test is a sum of four
-products: its error is below 16 * 2^-53 of that sum.
+products, or of six if a body's shape and its displacement are apart: its error is below
+32 * 2^-53 of that sum.
 """
 TINY: Final = 2.0**-1060
 """Bound of the error of a test by underflow, relative to the sum of |n|, |v|, the length and 1.
@@ -55,6 +53,22 @@ class Cut(NamedTuple):
     gap: float
 
 
+class Table(NamedTuple):
+    """The vertices of the items of a frame.
+
+    Attributes:
+        points: (x, y, t) of their control points.
+        starts: where those of each begin, and their number.
+        ends_of: the two vertices of each item.
+        first_vertices: the first vertex of each body.
+    """
+
+    points: Floats
+    starts: Items
+    ends_of: Items
+    first_vertices: list[int]
+
+
 @final
 class Frame:
     """Items in an interval of time, in doubles relative to an integer point near them.
@@ -62,11 +76,9 @@ class Frame:
     Attributes:
         time: the interval.
         start, length: of the interval.
-        ends: (x, y) of all vertices at the start and at the end of the interval.
-        ends_of: the two vertices of each item.
+        items: as given.
         bodies: those that have items, in order.
         row_of: the place of each of them in ``bodies``.
-        is_straight: whether all paths are linear, with two control points each.
         whole: the bodies as wholes, if they have been compared as such.
     """
 
@@ -75,27 +87,72 @@ class Frame:
     @np.errstate(all="ignore")  # the checker's exact test decides about infinities and NaN
     def __init__(self, paths: Paths, items: Items, start: Fraction, end: Fraction) -> None:
         self.time, self.start, self.length = Interval(start, end), start, float(end - start)
-        self._paths, self._items = paths, items
-        ends = [paths.items[i][1:] for i in items.tolist()]
-        row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
-        self.ends_of = np.array([(row[u], row[v]) for u, v in ends])
-        vertices = {i: [*some] for i, some in groupby(row, paths.body_of.__getitem__)}
-        self.bodies, points, self._first_vertices = [*vertices], list[Points](), list[int]()
-        moved = {i: self._translation(i) for i in self.bodies}
-        self._origin, self._size = self._near(next(iter(row)), moved[self.bodies[0]]), 0.0
-        for i, some in vertices.items():
-            self._first_vertices.append(len(points))
-            of = moved[i]
-            points += map(self._exactly, some) if of is None else self._translating(i, some, of)
-        self._points = np.array([*chain(*points)])  # (x, y, t) of all control points
-        self._starts = np.cumsum([0, *map(len, points)])
-        firsts, lasts = self._starts[:-1], self._starts[1:] - 1
-        self.ends = self._points[:, :2][np.array([firsts, lasts])]
+        self._paths, self.items = paths, items
+        self.bodies = [*dict.fromkeys(paths.body[items].tolist())]
         self.row_of = {i: k for k, i in enumerate(self.bodies)}
-        sizes = np.abs(self._points[:, :2])
+        self._moved = {i: self._translation(i) for i in self.bodies}
+        first = paths.items[int(items[0])][1]
+        self._origin, self._size = self._near(first, self._moved[self.bodies[0]]), 0.0
+        self._moves = self._moves_of_all()
+
+    def _moves_of_all(self) -> Floats | None:
+        """Return the displacements of the bodies at the start and at the end, (2, bodies, 2).
+
+        None unless all of them have all of their items here, and translate as in `_translation`.
+        """
+        moved, first = [*self._moved.values()], self._paths.first_item
+        count = sum(first[i + 1] - first[i] for i in self.bodies)
+        if None in moved or len(self.items) < count or max(map(abs, self._origin)) > EXACT:
+            return None
+        moves = np.array([[of[k] for of in moved if of] for k in (1, 2)])
+        self._size = max(float(np.abs(moves).max()) + max(map(abs, self._origin)), self._paths.shapes[2])
+        return moves - self._origin
+
+    @cached_property
+    def _table(self) -> Table:
+        """The vertices of the items, and their control points."""
+        ends = [self._paths.items[i][1:] for i in self.items.tolist()]
+        row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
+        points, first_vertices = list[Points](), list[int]()
+        for i, some in groupby(row, self._paths.body_of.__getitem__):
+            first_vertices.append(len(points))
+            of = self._moved[i]
+            points += map(self._exactly, some) if of is None else self._translating(i, [*some], of)
+        starts = np.cumsum([0, *map(len, points)])
+        return Table(
+            np.array([*chain(*points)]),
+            starts,
+            np.array([(row[u], row[v]) for u, v in ends]),
+            first_vertices,
+        )
+
+    @cached_property
+    def _points(self) -> Floats:
+        """(x, y, t) of all control points."""
+        points = self._table.points
+        sizes = np.abs(points[:, :2])
         largest = float(sizes.max(initial=0.0))
-        self.is_straight = len(self._points) == 2 * len(points) and not math.isnan(largest)
         self._size = max(self._size, float(np.nanmax(sizes)) if math.isnan(largest) else largest)
+        return points
+
+    @cached_property
+    def ends(self) -> Floats:
+        """(x, y) of all vertices at the start and at the end of the interval."""
+        starts = self._table.starts
+        return self._points[:, :2][np.array([starts[:-1], starts[1:] - 1])]
+
+    @property
+    def ends_of(self) -> Items:
+        """The two vertices of each item."""
+        return self._table.ends_of
+
+    @cached_property
+    def is_straight(self) -> bool:
+        """Return True if all paths are linear, with two control points each."""
+        if self._moves is not None:
+            return True
+        is_finite = not np.isnan(self._points[:, :2]).any()
+        return is_finite and len(self._points) == 2 * (len(self._table.starts) - 1)
 
     def _exactly(self, v: int) -> Points:
         """Return the control points of a vertex, correctly rounded."""
@@ -118,13 +175,15 @@ class Frame:
         """
         s, e = self._span
         piece = self._paths.bodies[body]._piece_after(s)
-        if piece.translation is None or (piece.until is not None and piece.until < e):
+        moved = piece.translation
+        if moved is None or (piece.until is not None and piece.until < e):
             return None
-        shape, motion = piece.translation
-        if max(motion.x.degree, motion.y.degree) > 1:
+        shape, motion = moved
+        x, y = motion.x._coefficients, motion.y._coefficients
+        if max(len(x), len(y)) > 2:
             return None
-        (i, j), (k, m) = (map(float, motion._at(t)) for t in (s, e))
-        return shape, (i, j), (k, m)
+        (a, i), (b, j) = (*x, 0, 0)[:2], (*y, 0, 0)[:2]
+        return shape, (float(a + i * s), float(b + j * s)), (float(a + i * e), float(b + j * e))
 
     def _near(self, v: int, moved: Moved | None) -> tuple[int, int]:
         """Return an integer point near a vertex at the start."""
@@ -152,7 +211,7 @@ class Frame:
 
     def rows(self, items: Items) -> Items:
         """Return the rows of some of the items."""
-        return np.searchsorted(self._items, items)
+        return np.searchsorted(self.items, items)
 
     def extents(self, items: Items, rows: Items | slice, directions: Floats) -> Extents:
         """Return the least and largest values at start and end, (2, items, directions).
@@ -165,18 +224,22 @@ class Frame:
 
     @cached_property
     def _usual(self) -> Extents:
-        return self.extents(self._items, slice(None), DIRECTIONS)
+        return self.extents(self.items, slice(None), DIRECTIONS)
 
     def usual(self, rows: Items) -> Extents:
         """Return the extents in the usual directions."""
         low, high = self._usual
         return low[:, rows], high[:, rows]
 
-    def body_extents(self, directions: Floats) -> Extents:
-        """Return the same of bodies: (2, bodies, directions)."""
-        along, of_bodies = self.ends @ directions.T, self._paths.wide_bodies
-        low, high = (f.reduceat(along, self._first_vertices, 1) for f in (np.minimum, np.maximum))
-        return self._wider(low, high, of_bodies, self.bodies, directions)
+    def body_extents(self) -> Extents:
+        """Return the same of bodies in the usual directions: (2, bodies, directions)."""
+        if self._moves is None:
+            along, firsts = self.ends @ DIRECTIONS.T, self._table.first_vertices
+            low, high = (f.reduceat(along, firsts, 1) for f in (np.minimum, np.maximum))
+        else:
+            along, (least, most, _) = self._moves @ DIRECTIONS.T, self._paths.shapes
+            low, high = (of[self.bodies] + along for of in (least, most))
+        return self._wider(low, high, self._paths.wide_bodies, self.bodies, DIRECTIONS)
 
     def _wider(
         self, low: Floats, high: Floats, wide: Floats, of: Items | list[int], directions: Floats
@@ -197,23 +260,26 @@ class Frame:
     def plane(self, cut: Cut) -> Plane:
         """Return a moving line with short numbers."""
         (x, y), (c, d), unit = cut.direction, cut.places, cut.gap / 16
-        v = Fraction(0)
+        v = QQ(0)
         if c != d and self.length:
-            v = short(Fraction((d - c) / self.length), unit / self.length)
-        at = Fraction(c) + (x * self._origin[0] + y * self._origin[1])
-        return Plane(x, y, short(at - v * self.start if v and self.start else at, unit), v)
+            v = short(of_double((d - c) / self.length), unit / self.length)
+        at = of_double(c) + (x * self._origin[0] + y * self._origin[1])
+        return Plane(x, y, short(at - v * self._span[0], unit), v)
 
     def sides(self, items: Items, rows: Items, plane: Plane) -> tuple[Any, Any]:
         """Return which items the checker finds below a moving line, and which above."""
         f, norm, error = self._values(plane)
-        wide, extra = self._paths.wide[items], self._paths.extra
-        low = np.minimum.reduceat(f, self._starts[:-1])[self.ends_of[rows]].min(axis=1)
-        high = np.maximum.reduceat(f, self._starts[:-1])[self.ends_of[rows]].max(axis=1)
+        wide, extra, starts = self._paths.wide[items], self._paths.extra, self._table.starts[:-1]
+        low = np.minimum.reduceat(f, starts)[self.ends_of[rows]].min(axis=1)
+        high = np.maximum.reduceat(f, starts)[self.ends_of[rows]].max(axis=1)
         high, low = high + norm * wide, low - norm * (wide + extra)
         below, above = high < -error, low > error
         for k in np.flatnonzero(~(below | above | ((high > error) & (low < -error)))).tolist():
             body, *ends = self._paths.items[int(items[k])]
-            planes = planes_of(*plane, self._paths.radii[body], self._paths.distance)
+            moving = fraction(plane.c), fraction(plane.v)
+            planes = planes_of(
+                plane.x, plane.y, *moving, self._paths.radii[body], self._paths.distance
+            )
             hulls = [self.time.hull(self._paths, u) for u in ends]  # type: ignore[arg-type]
             sides = {side_of(hull, *planes) for hull in hulls}
             below[k], above[k] = sides == {-1}, sides == {1}
@@ -222,7 +288,7 @@ class Frame:
     def separates(self, plane: Plane, below: Collection[int], present: Collection[int]) -> bool:
         """Return True if it is certain that some bodies are below, and the others present above."""
         f, norm, error = self._values(plane)
-        firsts = self._starts[self._first_vertices]
+        firsts = self._table.starts[self._table.first_vertices]
         rows = [self.row_of[i] for i in present]
         ends = [g.reduceat(f, firsts)[rows].tolist() for g in (np.minimum, np.maximum)]
         for i, a, b in zip(present, *ends, strict=True):
@@ -245,13 +311,14 @@ class Frame:
 
     def _values(self, plane: Plane) -> tuple[Floats, float, float]:
         """Return n·p - c - v t at all control points, |n|, and a bound of the error of a test."""
+        points = self._points
         v, c, norm, error = self._in_doubles(plane)
-        return self._points @ np.array([plane.x, plane.y, -v], dtype=float) - c, norm, error
+        return points @ np.array([plane.x, plane.y, -v], dtype=float) - c, norm, error
 
     def _in_doubles(self, plane: Plane) -> tuple[float, float, float, float]:
         """Return v, c at the start near the origin, |n|, and a bound of the error of a test."""
         x, y, extra = float(plane.x), float(plane.y), self._paths.extra
-        at = plane.c + plane.v * self.start if plane.v and self.start else plane.c
+        at = plane.c + plane.v * self._span[0]
         v, c = float(plane.v), float(at - (plane.x * self._origin[0] + plane.y * self._origin[1]))
         norm = math.hypot(x, y)
         size = (abs(x) + abs(y)) * self._size + abs(v) * self.length + abs(c)

@@ -5,18 +5,24 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
+from itertools import chain
 from math import frexp
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 
 from exactpt.check_apart import values
+from exactpt.kernel.numbers import QQ
 
 if TYPE_CHECKING:
     from exactpt.check_apart import Whole
     from exactpt.motion.body import Body
 
 Items: TypeAlias = "np.ndarray[Any, np.dtype[np.intp]]"
+Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
+
+DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
 
 
 class Plane(NamedTuple):
@@ -24,8 +30,8 @@ class Plane(NamedTuple):
 
     x: int
     y: int
-    c: Fraction
-    v: Fraction
+    c: QQ
+    v: QQ
 
     def line(self) -> str:
         """Return the node that begins with it."""
@@ -78,6 +84,18 @@ class Paths:
         self.wide = self.wide_bodies[self.body]
         self._made = dict[tuple[int, int], Any]()
 
+    @cached_property
+    def shapes(self) -> tuple[Floats, Floats, float]:
+        """The least and largest values of shapes in the usual directions, and the largest size.
+
+        Without the motions, in doubles; a shape that has none is at the origin.
+        """
+        places = [(body._shape.near or ([0.0] * body.size,) * 2)[:2] for body in self.bodies]
+        along = np.array([[*chain(*some)] for some in zip(*places, strict=True)]).T
+        values = along @ DIRECTIONS.T
+        low, high = (f.reduceat(values, self.first) for f in (np.minimum, np.maximum))
+        return low, high, float(np.abs(along).max())
+
     def of(self, v: int) -> Breaks:
         """Return the body of a vertex."""
         return self.breaks[self.body_of[v]]
@@ -98,11 +116,11 @@ class Paths:
         return x, y, w
 
 
-def short(x: Fraction, unit: float) -> Fraction:
+def short(x: QQ, unit: float) -> QQ:
     """Return a number near x with few digits: a multiple of a power of two not above the unit."""
     if not unit > 0:
         return x
     power, n, d = frexp(unit)[1] - 1, x.numerator, x.denominator
     n, d = (n << -power, d) if power < 0 else (n, d << power)
     k = (2 * n + d) // (2 * d)
-    return Fraction(k, 1 << -power) if power < 0 else Fraction(k << power)
+    return QQ(k, 1 << -power) if power < 0 else QQ(k << power)

@@ -8,8 +8,8 @@ from typing import Final, TypeAlias, final
 
 import numpy as np
 
-from exactpt.proof.frame import DIRECTIONS, Cut, Frame
-from exactpt.proof.paths import Plane
+from exactpt.proof.frame import Cut, Frame
+from exactpt.proof.paths import DIRECTIONS, Plane
 
 MOST: Final = 48
 """Number of bodies up to which whole ones are tried first."""
@@ -36,7 +36,7 @@ class WholeBodies:
         self._frame, self._bodies = frame, frame.bodies
         self._group = [groups[i] for i in frame.bodies]
         self._are_grouped = len({*self._group}) < len(self._group)
-        low, high = frame.body_extents(DIRECTIONS)
+        low, high = frame.body_extents()
         middles = (low + high).sum(axis=0, keepdims=True)
         self._order = [*range(len(DIRECTIONS))]  # the directions of the last lines first
         self._extents = np.concatenate([low, high, middles]).transpose(2, 0, 1).tolist()

@@ -118,7 +118,7 @@ def _of_double(x: float) -> str:
 
 
 def _vertex_to_json(vertex: Position) -> object:
-    x, y = map(_coefficients, vertex)
+    x, y = [_coefficients(f) for f in vertex]
     return [*x, *y] if len(x) == len(y) == 1 else {"x": x, "y": y}
 
 
@@ -186,10 +186,11 @@ def _indented(data: object, line: str) -> str:
     """
     if isinstance(data, str):
         return encode_basestring_ascii(data)
-    more = f"{line} "
+    more, text = f"{line} ", encode_basestring_ascii
     if data and isinstance(data, list):
-        return f"[{more}{f',{more}'.join([_indented(value, more) for value in data])}{line}]"
+        values = [text(one) if type(one) is str else _indented(one, more) for one in data]
+        return f"[{more}{f',{more}'.join(values)}{line}]"
     if data and isinstance(data, dict):
-        pairs = [f"{_indented(key, more)}: {_indented(data[key], more)}" for key in data]
+        pairs = [f"{text(key)}: {_indented(value, more)}" for key, value in data.items()]
         return f"{{{more}{f',{more}'.join(pairs)}{line}}}"
     return str(data) if type(data) is int else json.dumps(data)
