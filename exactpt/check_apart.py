@@ -117,7 +117,7 @@ def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     return odd
 NUMBER = re.compile('([+-]?)(\\d*+)(?:/(\\d++)|\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?)', re.ASCII); MAX_BITS = 33220
 MAX_DIGITS = 10000; MAX_DEGREE = 64
-BODY_KEYS = 'motion closed holes radius properties vertices keyframes parts'.split()
+BODY_KEYS = ['motion', 'closed', 'holes', 'radius', 'properties', 'vertices', 'keyframes', 'parts']
 MOTION_KEYS = {'': ([], ['x', 'y']), 'affine': (['matrix'], ['x', 'y']), 'rigid': (['half_turn'], ['x', 'y', 'pivot', 'orientation'])}
 class Bare(str): __slots__ = ()
 def need(condition: object, what: str, data: Json='') -> None:
@@ -135,10 +135,10 @@ def rational(data: str) -> Fraction:
     q = Fraction(n * 10 ** power) if is_whole else Fraction(n, int(under or 10 ** (-power)))
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
-def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> dict[str, Json]:
+def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> Json:
     known = isinstance(data, dict) and {*required} <= data.keys() <= {*required, *optional}
     need(known, 'not an object, or with other keys:', data); return data
-def entries(data: Json, length: int | None=None) -> list[Json]:
+def entries(data: Json, length: int | None=None) -> Json:
     need(isinstance(data, list) and length in (None, len(data)), 'not a list as needed:', data); return data
 def check_json(data: Json, levels: int) -> None:
     is_text = isinstance(data, str) and (data.isascii() or not re.search('[\ud800-\udfff]', data))
@@ -150,8 +150,7 @@ def polynomial(data: Json) -> Poly: return Poly([number(c) for c in entries(data
 def degree(*polynomials: Poly) -> int: return max(1, *map(len, polynomials)) - 1
 class Motion:
     def __init__(self, data: Json, of_shape: int) -> None:
-        has = data if isinstance(data, dict) else ()
-        kind = 'rigid' if 'rigid' in has else 'affine' if 'affine' in has else ''
+        kind = next(iter({'rigid', 'affine'} & data.keys()), '') if isinstance(data, dict) else ''
         given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
         x, y = (polynomial(given.get('x', [])), polynomial(given.get('y', [])))
         m, high = ([ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y)))
@@ -181,7 +180,6 @@ def cleared(*given: Poly) -> tuple[Poly, ...]:
     ratios = [[q.as_integer_ratio() for q in f] for f in given]; m = lcm(*[d for f in ratios for _, d in f])
     WORK.spend(words(m) ** 2 * sum(map(len, given)))
     return (*[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m]))
-def rows_of(x: Poly, y: Poly) -> Rows: return [*zip_longest(*cleared(x, y), fillvalue=0)]
 class Body:
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
         body = keys(data, ['name'], BODY_KEYS)
@@ -192,8 +190,8 @@ class Body:
         need(type(self.name) is str and self.name, 'a name:', self.name)
         need(isinstance(closed, bool), 'closed:', closed); self.radius = number(body.get('radius', '0'))
         need(self.radius.numerator >= 0, 'a radius:', body.get('radius'))
-        need(isinstance(body.get('properties', {}), dict), 'properties:', self.name); check_json(self.name, 0)
-        check_json(body.get('properties'), 29)
+        need(isinstance(body.get('properties', {}), dict), 'properties:', self.name)
+        check_json([self.name, body.get('properties')], 30)
         parts = [keys(p, ['vertices'], ['holes']) for p in entries(body.get('parts', []))]
         need(parts or 'parts' not in body, 'no parts:', data)
         of = [(p.get('vertices', []), *entries(p.get('holes', []))) for p in parts or [body]]
@@ -210,13 +208,11 @@ class Body:
             bounds = accumulate(map(len, part), initial=first)
             self.parts.append([range(i, j) for i, j in pairwise(bounds)]); first = self.parts[-1][-1].stop
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
-        ends = [(ring, [(ring[-1], ring[0])][:self.closed]) for ring, _ in self.rings]
-        self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks: dict[tuple[int, int], Track] = {}; self.at_start = self.places(start)
+        self.edges = [e for r, _ in self.rings for e in pairwise([*r, *r[:self.closed]])]
+        self.tracks, self.at_start = (dict[tuple[int, int], Track](), self.places(start))
         self.check_simple(self.at_start)
     def read_motion(self, data: Json) -> None:
         of_shape = 1 if self.frames else max(map(len, self.shape)) - 1; self.ends: list[Fraction] = []
-        self.spin = self.path = None
         if not isinstance(data, dict) or 'pieces' not in data: self.motions = [Motion(data, of_shape)]; return
         given = keys(data, ['pieces'], ['spin', 'path']); need(len(given) < 3, 'both a spin and a path:', data)
         rows = [keys(p, ['motion'], ['until']) for p in entries(given['pieces'])]
@@ -236,7 +232,8 @@ class Body:
         if not self.frames: return self.shape[i]
         (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
-        return rows_of(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+        xy = (Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True))
+        return [*zip_longest(*cleared(*xy), fillvalue=0)]
     def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
         k = bisect_right(self.frames, t, key=lambda frame: frame[0])
         return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
@@ -266,7 +263,8 @@ class Body:
 def point(data: Json) -> Point: x, y = map(number, entries(data, 2)); return (x, y)
 def vertex(data: Json) -> Rows:
     if isinstance(data, dict):
-        given = keys(data, optional=['x', 'y']); return rows_of(*(polynomial(given.get(k, [])) for k in 'xy'))
+        xy = (polynomial(keys(data, optional=['x', 'y']).get(k, [])) for k in 'xy')
+        return [*zip_longest(*cleared(*xy), fillvalue=0)]
     (p, d), (q, e) = (x.as_integer_ratio() for x in point(data)); m = lcm(d, e)
     return [(p * (m // d), q * (m // e), m)]
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
@@ -422,8 +420,7 @@ def planes_of(x: int, y: int, c: Fraction, v: Fraction, r: Fraction, far: Fracti
         low, high = c - norm * r, c + norm * (r + far)
     d = lcm(v.denominator, low.denominator, high.denominator)
     z, p, q = (-k.numerator * (d // k.denominator) for k in (v, low, high))
-    below = d * x, d * y, z, p
-    return below, below if p == q else (d * x, d * y, z, q)
+    return (plane := (d * x, d * y, z, p)), plane if p == q else (d * x, d * y, z, q)
 
 
 def side_of(points: Hull, low: Plane, high: Plane) -> int:

@@ -497,7 +497,7 @@ MAX_DIGITS = 10_000  # of one in a proof
 MAX_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
 
 
-BODY_KEYS = "motion closed holes radius properties vertices keyframes parts".split()
+BODY_KEYS = ["motion", "closed", "holes", "radius", "properties", "vertices", "keyframes", "parts"]
 MOTION_KEYS = {  # required, and optional
     "": ([], ["x", "y"]),
     "affine": (["matrix"], ["x", "y"]),
@@ -542,17 +542,17 @@ def rational(data: str) -> Fraction:
     return q
 
 
-def keys(data: Json, required: Sequence[str] = (), optional: Sequence[str] = ()) -> dict[str, Json]:
+def keys(data: Json, required: Sequence[str] = (), optional: Sequence[str] = ()) -> Json:
     """Return a JSON object with all of the required keys, and no others but the optional ones."""
     known = isinstance(data, dict) and {*required} <= data.keys() <= {*required, *optional}
     need(known, "not an object, or with other keys:", data)
-    return data  # type: ignore[no-any-return]
+    return data
 
 
-def entries(data: Json, length: int | None = None) -> list[Json]:
+def entries(data: Json, length: int | None = None) -> Json:
     """Return a JSON list, of this length if one is given."""
     need(isinstance(data, list) and length in (None, len(data)), "not a list as needed:", data)
-    return data  # type: ignore[no-any-return]
+    return data
 
 
 def check_json(data: Json, levels: int) -> None:
@@ -576,15 +576,11 @@ def degree(*polynomials: Poly) -> int:
 
 
 class Motion:
-    """A motion by one formula: (x, y) goes to (a x + b y + e, c x + d y + f) / w.
-
-    ``form`` has these polynomials; ``rigid`` the half turn, the orientation, and the rest.
-    """
+    """A motion by one formula, ``form``: (x, y) goes to (a x + b y + e, c x + d y + f) / w."""
 
     def __init__(self, data: Json, of_shape: int) -> None:
         self.rigid: Turn | None = None  # own
-        has = data if isinstance(data, dict) else ()
-        kind = "rigid" if "rigid" in has else "affine" if "affine" in has else ""
+        kind = next(iter({"rigid", "affine"} & data.keys()), "") if isinstance(data, dict) else ""
         given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
         x, y = polynomial(given.get("x", [])), polynomial(given.get("y", []))
         m, high = [ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y))
@@ -632,11 +628,6 @@ def cleared(*given: Poly) -> tuple[Poly, ...]:
     return *[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m])
 
 
-def rows_of(x: Poly, y: Poly) -> Rows:
-    """Return the rows of a vertex at (x, y)."""
-    return [*zip_longest(*cleared(x, y), fillvalue=0)]
-
-
 class Body:
     """A body: the tracks of its vertices, in each piece of its motion.
 
@@ -656,8 +647,7 @@ class Body:
         self.radius = number(body.get("radius", "0"))
         need(self.radius.numerator >= 0, "a radius:", body.get("radius"))
         need(isinstance(body.get("properties", {}), dict), "properties:", self.name)
-        check_json(self.name, 0)
-        check_json(body.get("properties"), 29)
+        check_json([self.name, body.get("properties")], 30)
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
         need(parts or "parts" not in body, "no parts:", data)
         of = [(p.get("vertices", []), *entries(p.get("holes", []))) for p in parts or [body]]
@@ -678,17 +668,14 @@ class Body:
             self.parts.append([range(i, j) for i, j in pairwise(bounds)])
             first = self.parts[-1][-1].stop
         self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
-        ends = [(ring, [(ring[-1], ring[0])][: self.closed]) for ring, _ in self.rings]
-        self.edges = [edge for ring, last in ends for edge in [*pairwise(ring), *last]]
-        self.tracks: dict[tuple[int, int], Track] = {}
-        self.at_start = self.places(start)
+        self.edges = [e for r, _ in self.rings for e in pairwise([*r, *r[: self.closed]])]
+        self.tracks, self.at_start = dict[tuple[int, int], Track](), self.places(start)
         self.check_simple(self.at_start)
 
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
         of_shape = 1 if self.frames else max(map(len, self.shape)) - 1
         self.ends: list[Fraction] = []
-        self.spin = self.path = None
         if not isinstance(data, dict) or "pieces" not in data:
             self.motions = [Motion(data, of_shape)]
             return
@@ -717,7 +704,8 @@ class Body:
             return self.shape[i]
         (s, p), (e, q) = self.around(t)
         slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
-        return rows_of(*(Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True)))
+        xy = (Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True))
+        return [*zip_longest(*cleared(*xy), fillvalue=0)]
 
     def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
         """Return the frames before and after a time."""
@@ -781,8 +769,8 @@ def point(data: Json) -> Point:
 def vertex(data: Json) -> Rows:
     """Return the rows of a vertex: two numbers, or polynomials x and y."""
     if isinstance(data, dict):
-        given = keys(data, optional=["x", "y"])
-        return rows_of(*(polynomial(given.get(k, [])) for k in "xy"))
+        xy = (polynomial(keys(data, optional=["x", "y"]).get(k, [])) for k in "xy")
+        return [*zip_longest(*cleared(*xy), fillvalue=0)]
     (p, d), (q, e) = (x.as_integer_ratio() for x in point(data))
     m = lcm(d, e)
     return [(p * (m // d), q * (m // e), m)]
@@ -1223,8 +1211,9 @@ class Checker:
                 self.look_at(sample)
                 self.line = line
             elif row != ["none"] or self.scene.bodies:
-                at_start = row[0] == "contact" and time.compare_rational(start) == 0
-                require(at_start, "there is no map")
+                require(
+                    row[0] == "contact" and time.compare_rational(start) == 0, "there is no map"
+                )
                 self.now = time = Time(start)  # the interval of a root has other ends
             if row[0] == "event":
                 self.event(time, row[k:])
@@ -1752,8 +1741,7 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
         same = file_bytes(manifest) == ("\n".join(chain) + "\n").encode()
         require(same, "rejected: the parts are not those of run.chain")
     assert last is not None  # noqa: S101
-    digest = hashlib.sha256(chain[-1].encode()).hexdigest()[:16]
-    said = last.split(" ", 2)[2]
+    digest, said = hashlib.sha256(chain[-1].encode()).hexdigest()[:16], last.split(" ", 2)[2]
     if last.time is None:
         said = said.replace(f"[{last.scene.start}, ", f"[{start}, ", 1)
     text = f"accepted: {digest} along {len(numbers)} parts from t = {start}: {said}"

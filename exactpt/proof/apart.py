@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
-from math import ceil, cos, log2, pi, sin
 from typing import Any, Final, TypeAlias, final
 
 import numpy as np
@@ -17,7 +16,7 @@ from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
 from exactpt.proof.frame import Cut, Extents, Frame
 from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane
-from exactpt.proof.whole import MOST, WholeBodies
+from exactpt.proof.whole import MOST, VECTORS, WholeBodies, direction_between
 
 CLEAR: Final = 1e-11
 """Smallest gap that a line is put into, relative to the extent of all items."""
@@ -27,14 +26,10 @@ FEW, CLOSE = 8, 1e-15
 """Of so few items, gaps down to the second number are tried: the exact test decides."""
 MANY: Final = 24
 """Number of items up to which edges and nearest vertices propose directions, too."""
-VECTORS: Final = 10_000
-"""Number of vectors between vertices of two groups up to which all are looked at."""
-UNCERTAIN: Final = 1e-12
-"""Of a smaller angle between such vectors the sign is not taken: a proposal needs no proof."""
 FINEST: Final = 2**40
 """Times are not halved further than to this part of the span."""
-Node: TypeAlias = tuple[Items, Frame | tuple[Fraction, Fraction], int]
-"""Items, their interval, and the number of nodes above."""
+Node: TypeAlias = "tuple[Items | None, set[int], Frame | tuple[Fraction, Fraction], int]"
+"""Items (None: all of the frame), their bodies, the interval, and the number of nodes above."""
 PLACES: Final = np.array([20, 35, 50, 65, 80])
 """Percentages of the items below lines that some items cross."""
 
@@ -69,29 +64,38 @@ class Separation:
         Raises:
             BudgetExceeded: if bodies are too near to each other, or there are too many nodes.
         """
-        items = np.arange(len(self._body), dtype=np.intp)
-        span, most = end - start, 1000 + 50 * len(items)
+        every = np.arange(len(self._body), dtype=np.intp)
+        span, most = end - start, 1000 + 50 * len(every)
         lines: list[str] = []
-        todo: list[Node] = [(items, (start, end), 0)]
+        todo: list[Node] = [(every, {*range(len(self._groups))}, (start, end), 0)]
         while todo:
-            items, time, depth = todo.pop()
-            present = set(self._body[items].tolist())
+            some, present, time, depth = todo.pop()
             if not self._counts(present):
                 continue
             check_budget()
             if self._counted:  # the others do not matter in this node, nor in any below it
-                here = [pair for pair in self._counted if {*pair} <= present]
-                items = items[np.isin(self._body[items], np.ravel(here))]
-                present = {i for pair in here for i in pair}
-            frame = time if isinstance(time, Frame) else Frame(self._paths, items, *time)
+                present = {i for pair in self._counted if {*pair} <= present for i in pair}
+                some = self._of(present, every if some is None else some)
+            if not isinstance(time, Frame):
+                assert some is not None  # noqa: S101
+                time, some = Frame(self._paths, some, *time), None
+            frame = time
             if len(lines) >= most:
                 raise BudgetExceeded(f"a certificate of more than {most} nodes is needed", None)
-            found = self._between_bodies(frame, items, present)
-            found = found or self._cut(frame, items, frame.rows(items))
+            whole = self._between_bodies(frame, present)
+            if whole is not None:
+                plane, low = whole
+                lines.append(plane.line())
+                for part in (present - low, low):
+                    rest = some if some is None else self._of(part, some)
+                    todo.append((rest, part, frame, depth + 1))
+                continue
+            items = self._of(present, frame.items) if some is None else some
+            found = self._cut(frame, items, frame.rows(items))
             if found is not None:
                 plane, below, above = found
                 lines.append(plane.line())
-                todo += [(items[~below], frame, depth + 1), (items[~above], frame, depth + 1)]
+                todo += [self._node(items[~side], frame, depth + 1) for side in (below, above)]
                 continue
             start, end = frame.time.start, frame.time.end
             body = int(np.bincount(self._body[items]).argmax())
@@ -101,14 +105,24 @@ class Separation:
                 middle = int(several[len(several) // 2])
                 lines.append(f"s {body} {middle}")
                 parts = [items[~(mine & (items < middle))], items[~(mine & (items >= middle))]]
-                todo += [(part, frame, depth + 1) for part in parts]
+                todo += [self._node(part, frame, depth + 1) for part in parts]
                 continue
             if (end - start) * FINEST < span or start == end:
                 raise BudgetExceeded("bodies are too near to each other for a certificate", None)
             q = self._middle(items, start, end)
             lines.append("t" if q == (start + end) / 2 else f"t {q}")
-            todo += [(items, (q, end), depth + 1), (items, (start, q), depth + 1)]
+            todo += [(items, present, time, depth + 1) for time in ((q, end), (start, q))]
         return lines
+
+    def _of(self, bodies: Collection[int], items: Items) -> Items:
+        """Return those of some items that belong to some bodies."""
+        mine = np.zeros(len(self._groups), dtype=bool)
+        mine[[*bodies]] = True
+        return items[mine[self._body[items]]]
+
+    def _node(self, items: Items, frame: Frame, depth: int) -> Node:
+        """Return a node of some items."""
+        return items, set(self._body[items].tolist()), frame, depth
 
     def _middle(self, items: Items, start: Fraction, end: Fraction) -> Fraction:
         """Return the breakpoint of a body that is next to the middle of the time, or the middle."""
@@ -117,22 +131,13 @@ class Separation:
         breaks = {q for i in bodies for q in self._paths.breaks[i].breaks if start < q < end}
         return min(breaks, key=lambda q: (abs(q - middle), q)) if breaks else middle
 
-    def _between_bodies(
-        self, frame: Frame, items: Items, present: set[int]
-    ) -> tuple[Plane, Any, Any] | None:
+    def _between_bodies(self, frame: Frame, present: set[int]) -> tuple[Plane, set[int]] | None:
         """Return a moving line between whole bodies; None without one, or for many bodies."""
         if len(present) > MOST:
             return None
         if frame.whole is None:
             frame.whole = WholeBodies(frame, self._groups)
-        found = frame.whole.cut(present)
-        if found is None:
-            return None
-        plane, low = found
-        sides = np.zeros(len(self._paths.radii), dtype=bool)
-        sides[[*low]] = True
-        below = sides[self._body[items]]
-        return plane, below, ~below
+        return frame.whole.cut(present)
 
     def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:
         """Return a good moving line, with the items below and above it; None if there is none."""
@@ -146,12 +151,13 @@ class Separation:
 
     def _proposed(self, frame: Frame, items: Items, rows: Items) -> Iterator[tuple[Cut, float]]:
         """Yield moving lines, and the parts of all items that both of their sides may have."""
-        usual, two = (DIRECTIONS, frame.usual(rows)), self._between_two(frame, items, rows)
-        both = [usual]
+        two = self._between_two(frame, items, rows)
         if two is not None and len(two):
             yield from (
                 (cut, 1.0) for cut in self._clean(items, two, frame.extents(items, rows, two))
             )
+        usual = DIRECTIONS, frame.usual(rows)
+        both = [usual]
         if two is None or len(two):
             yield from ((cut, 1.0) for cut in self._clean(items, *usual))
             more = self._directions(frame, items, rows)
@@ -216,24 +222,10 @@ class Separation:
         group = self._group[items]
         mine = group == group[0]
         others = group[~mine]
-        a, b = (np.unique(frame.ends_of[rows[part]]) for part in (mine, ~mine))
+        a, b = (_numbers(frame.ends_of[rows[part]]) for part in (mine, ~mine))
         if (others != others[:1]).any() or len(a) * len(b) > VECTORS:
             return None
-        halves = frame.ends / 2  # the differences are doubles
-        xs, ys = (halves[:, b, None] - halves[:, None, a]).reshape(-1, 2).T
-        angles = np.arctan2(ys, xs)
-        first = float(angles[0])
-        turns = (angles - first + pi) % (2 * pi) - pi
-        least, most = float(turns.min()), float(turns.max())
-        room = pi - (most - least)
-        if room < -UNCERTAIN:
-            return np.empty((0, 2))
-        if not room > UNCERTAIN or self._paths.widest or self._paths.extra:
-            return None
-        middle, bits = first + (least + most) / 2, min(max(ceil(log2(3 / room)), 1), 50)
-        x, y = cos(middle), sin(middle)
-        longest, unit = max(abs(x), abs(y)), 2.0**bits
-        return np.array([[float(round(f / longest * unit)) for f in (x, y)]])
+        return direction_between(frame.ends[:, a], frame.ends[:, b], is_round=self._paths.is_round)
 
     def _directions(self, frame: Frame, items: Items, rows: Items) -> Floats:
         """Return normals of some edges, and directions between nearest vertices of two groups."""
@@ -244,7 +236,7 @@ class Separation:
         group = self._group[items]
         mine = group == group[0]
         if len(items) <= MANY or len(np.unique(group)) == 2:
-            a, b = (np.unique(frame.ends_of[rows[part]].ravel()) for part in (mine, ~mine))
+            a, b = (_numbers(frame.ends_of[rows[part]]) for part in (mine, ~mine))
             for at in frame.ends:
                 apart = at[a][:, None] - at[b][None]
                 i, j = np.unravel_index(int((apart**2).sum(axis=2).argmin()), apart.shape[:2])
@@ -256,3 +248,8 @@ class Separation:
         grids = (1e3, 2.0**50) if len(items) <= FEW else (1e3,)
         rounded = (np.rint(raw * grid).tolist() for grid in grids)
         return np.array([row for rows in rounded for row in sorted({*map(tuple, rows)})])
+
+
+def _numbers(vertices: Items) -> Items:
+    """Return these numbers in order, each of them once."""
+    return np.flatnonzero(np.bincount(vertices.ravel()))

@@ -16,15 +16,13 @@ import numpy as np
 
 from exactpt.check_apart import Interval, planes_of, side_of
 from exactpt.kernel.numbers import QQ, fraction, of_double, rational
-from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane, short
+from exactpt.proof.paths import DIRECTIONS, Floats, Items, Moved, Paths, Place, Plane, short
 
 if TYPE_CHECKING:
     from exactpt.proof.whole import WholeBodies
 
 Extents: TypeAlias = "tuple[Floats, Floats]"
 Points: TypeAlias = "list[tuple[float, float, float]]"
-Place: TypeAlias = "tuple[float, float]"
-Moved: TypeAlias = "tuple[tuple[Sequence[float], Sequence[float], bool], Place, Place]"
 
 ERROR: Final = 1e-12
 """Bound of the error of a test, relative to the sum of the largest sizes of its terms.
@@ -90,7 +88,7 @@ class Frame:
         self._paths, self.items = paths, items
         self.bodies = [*dict.fromkeys(paths.body[items].tolist())]
         self.row_of = {i: k for k, i in enumerate(self.bodies)}
-        self._moved = {i: self._translation(i) for i in self.bodies}
+        self._moved = {i: paths.translation(i, *self._span) for i in self.bodies}
         first = paths.items[int(items[0])][1]
         self._origin, self._size = self._near(first, self._moved[self.bodies[0]]), 0.0
         self._moves = self._moves_of_all()
@@ -98,15 +96,17 @@ class Frame:
     def _moves_of_all(self) -> Floats | None:
         """Return the displacements of the bodies at the start and at the end, (2, bodies, 2).
 
-        None unless all of them have all of their items here, and translate as in `_translation`.
+        None unless all have all of their items here, and a `Paths.translation`.
         """
         moved, first = [*self._moved.values()], self._paths.first_item
         count = sum(first[i + 1] - first[i] for i in self.bodies)
         if None in moved or len(self.items) < count or max(map(abs, self._origin)) > EXACT:
             return None
-        moves = np.array([[of[k] for of in moved if of] for k in (1, 2)])
-        self._size = max(float(np.abs(moves).max()) + max(map(abs, self._origin)), self._paths.shapes[2])
-        return moves - self._origin
+        moves: Floats = np.array([[of[k] for of in moved if of] for k in (1, 2)])
+        moved_by = float(np.abs(moves).max()) + max(map(abs, self._origin))
+        self._size = max(moved_by, float(np.abs(self._paths.shapes[2]).max()))
+        relative: Floats = moves - self._origin
+        return relative
 
     @cached_property
     def _table(self) -> Table:
@@ -114,10 +114,10 @@ class Frame:
         ends = [self._paths.items[i][1:] for i in self.items.tolist()]
         row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
         points, first_vertices = list[Points](), list[int]()
-        for i, some in groupby(row, self._paths.body_of.__getitem__):
+        for i, group in groupby(row, self._paths.body_of.__getitem__):
             first_vertices.append(len(points))
-            of = self._moved[i]
-            points += map(self._exactly, some) if of is None else self._translating(i, [*some], of)
+            some, of = [*group], self._moved[i]
+            points += map(self._exactly, some) if of is None else self._translating(i, some, of)
         starts = np.cumsum([0, *map(len, points)])
         return Table(
             np.array([*chain(*points)]),
@@ -139,7 +139,8 @@ class Frame:
     def ends(self) -> Floats:
         """(x, y) of all vertices at the start and at the end of the interval."""
         starts = self._table.starts
-        return self._points[:, :2][np.array([starts[:-1], starts[1:] - 1])]
+        ends: Floats = self._points[:, :2][np.array([starts[:-1], starts[1:] - 1])]
+        return ends
 
     @property
     def ends_of(self) -> Items:
@@ -167,23 +168,6 @@ class Frame:
     @cached_property
     def _span(self) -> tuple[QQ, QQ]:
         return rational(self.time.start), rational(self.time.end)
-
-    def _translation(self, body: int) -> Moved | None:
-        """Return the shape of a body in doubles, and where it is moved at the start and the end.
-
-        None if it does not translate by one linear formula, or its shape has no doubles.
-        """
-        s, e = self._span
-        piece = self._paths.bodies[body]._piece_after(s)
-        moved = piece.translation
-        if moved is None or (piece.until is not None and piece.until < e):
-            return None
-        shape, motion = moved
-        x, y = motion.x._coefficients, motion.y._coefficients
-        if max(len(x), len(y)) > 2:
-            return None
-        (a, i), (b, j) = (*x, 0, 0)[:2], (*y, 0, 0)[:2]
-        return shape, (float(a + i * s), float(b + j * s)), (float(a + i * e), float(b + j * e))
 
     def _near(self, v: int, moved: Moved | None) -> tuple[int, int]:
         """Return an integer point near a vertex at the start."""
@@ -241,10 +225,18 @@ class Frame:
             low, high = (of[self.bodies] + along for of in (least, most))
         return self._wider(low, high, self._paths.wide_bodies, self.bodies, DIRECTIONS)
 
+    def places(self, bodies: Collection[int]) -> Floats | None:
+        """Return the vertices of bodies at start and end; None if round or not translated."""
+        if self._moves is None or self._paths.is_round:
+            return None
+        first, shapes = [*self._paths.first, None], self._paths.shapes[2]
+        some = [shapes[first[i] : first[i + 1]] + self._moves[:, [self.row_of[i]]] for i in bodies]
+        return np.concatenate(some, axis=1)
+
     def _wider(
         self, low: Floats, high: Floats, wide: Floats, of: Items | list[int], directions: Floats
     ) -> Extents:
-        if not self._paths.widest and not self._paths.extra:
+        if not self._paths.is_round:
             return low, high
         norm = np.hypot(*directions.T)
         wide = wide[of][:, None] * norm

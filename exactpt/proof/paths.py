@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain
-from math import frexp
+from math import frexp, lcm
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 
-from exactpt.check_apart import values
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
     from exactpt.check_apart import Whole
@@ -21,8 +20,11 @@ if TYPE_CHECKING:
 
 Items: TypeAlias = "np.ndarray[Any, np.dtype[np.intp]]"
 Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
+Place: TypeAlias = tuple[float, float]
+Moved: TypeAlias = tuple[tuple[Sequence[float], Sequence[float], bool], Place, Place]
 
 DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
+ZEROS: Final = QQ(0), QQ(0)
 
 
 class Plane(NamedTuple):
@@ -62,6 +64,7 @@ class Paths:
         wide_bodies: the radius of each body, in doubles.
         widest: the largest of them.
         extra: the distance, in doubles.
+        is_round: whether there is a radius or a distance.
     """
 
     def __init__(self, bodies: Sequence[Body], distance: Fraction) -> None:
@@ -82,11 +85,12 @@ class Paths:
         wide = [float(r) for r in self.radii]
         self.wide_bodies, self.widest = np.array(wide), max(wide, default=0.0)
         self.wide = self.wide_bodies[self.body]
+        self.is_round = bool(self.widest or self.extra)
         self._made = dict[tuple[int, int], Any]()
 
     @cached_property
-    def shapes(self) -> tuple[Floats, Floats, float]:
-        """The least and largest values of shapes in the usual directions, and the largest size.
+    def shapes(self) -> tuple[Floats, Floats, Floats]:
+        """The least and largest values of shapes in the usual directions, and their vertices.
 
         Without the motions, in doubles; a shape that has none is at the origin.
         """
@@ -94,7 +98,24 @@ class Paths:
         along = np.array([[*chain(*some)] for some in zip(*places, strict=True)]).T
         values = along @ DIRECTIONS.T
         low, high = (f.reduceat(values, self.first) for f in (np.minimum, np.maximum))
-        return low, high, float(np.abs(along).max())
+        return low, high, along
+
+    def translation(self, body: int, start: QQ, end: QQ) -> Moved | None:
+        """Return the shape of a body in doubles, and where it is moved at the start and the end.
+
+        None if it does not translate by one linear formula, or its shape has no doubles.
+        """
+        piece = self.bodies[body]._piece_after(start)
+        moved = piece.translation
+        if moved is None or (piece.until is not None and piece.until < end):
+            return None
+        shape, motion = moved
+        x, y = motion.x._coefficients, motion.y._coefficients
+        if max(len(x), len(y)) > 2:
+            return None
+        (a, i), (b, j) = (*x, *ZEROS)[:2], (*y, *ZEROS)[:2]
+        first, last = ((float(a + i * t), float(b + j * t)) for t in (start, end))
+        return shape, first, last
 
     def of(self, v: int) -> Breaks:
         """Return the body of a vertex."""
@@ -112,8 +133,11 @@ class Paths:
 
     def place(self, v: int, t: Fraction) -> Whole:
         """Return where a vertex is at a time."""
-        x, y, w = values(self.track(v, t), t)
-        return x, y, w
+        i, time = self.body_of[v], rational(t)
+        x, y = self.bodies[i]._piece_after(time).position(v - self.first[i], time)
+        n, k = int(x.denominator), int(y.denominator)
+        w = lcm(n, k)
+        return int(x.numerator) * (w // n), int(y.numerator) * (w // k), w
 
 
 def short(x: QQ, unit: float) -> QQ:

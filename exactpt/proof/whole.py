@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from itertools import accumulate
+from math import ceil, cos, log2, pi, sin
 from typing import Final, TypeAlias, final
 
 import numpy as np
 
 from exactpt.proof.frame import Cut, Frame
-from exactpt.proof.paths import DIRECTIONS, Plane
+from exactpt.proof.paths import DIRECTIONS, Floats, Plane
 
 MOST: Final = 48
 """Number of bodies up to which whole ones are tried first."""
@@ -17,6 +18,11 @@ CLEAR: Final = 1e-6
 """Smallest gap between whole bodies, relative to the extent of all: doubles decide of it."""
 AT_REST: Final = 0.25
 """Part of the gap of a moving line from which on a gap is enough for a line at rest."""
+
+VECTORS: Final = 10_000
+"""Number of vectors between vertices of two groups up to which all are looked at."""
+UNCERTAIN: Final = 1e-12
+"""Of a smaller angle between such vectors the sign is not taken: a proposal needs no proof."""
 
 Ends: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 Found: TypeAlias = tuple[float, Cut, set[int], Ends]
@@ -33,7 +39,7 @@ class WholeBodies:
     """
 
     def __init__(self, frame: Frame, groups: Sequence[int]) -> None:
-        self._frame, self._bodies = frame, frame.bodies
+        self._frame, self._bodies, self._groups = frame, frame.bodies, groups
         self._group = [groups[i] for i in frame.bodies]
         self._are_grouped = len({*self._group}) < len(self._group)
         low, high = frame.body_extents()
@@ -44,7 +50,7 @@ class WholeBodies:
     def cut(self, present: Collection[int]) -> tuple[Plane, set[int]] | None:
         """Return a line between some of these bodies, which are below it, and all others.
 
-        None if there is none in the usual directions with enough room.
+        None if there is none in the usual directions with enough room, nor between two groups.
         """
         best: Found | None = None
         at = 0
@@ -56,8 +62,11 @@ class WholeBodies:
                 if best[0] >= 0.5:
                     break
         if best is None:
+            best = self._between_two(present)
+        else:
+            self._order.insert(0, self._order.pop(self._order.index(at)))
+        if best is None:
             return None
-        self._order.insert(0, self._order.pop(self._order.index(at)))
         _, cut, below, ends = best
         plane, is_straight = self._frame.plane(cut), self._frame.is_straight
         certain = (
@@ -103,6 +112,47 @@ class WholeBodies:
             ((a, b), (c, d)),
         )
 
+    def _between_two(self, present: Collection[int]) -> Found | None:
+        """Return a line between two groups of bodies that translate, in a direction of theirs."""
+        frame, group = self._frame, self._groups[next(iter(present))]
+        mine = {i for i in present if self._groups[i] == group}
+        others = [i for i in present if i not in mine]
+        a, b = frame.places(mine), frame.places(others)
+        if a is None or b is None or len({self._groups[i] for i in others}) > 1:
+            return None
+        if a.size * b.size > 16 * VECTORS:
+            return None
+        found = direction_between(a, b, is_round=False)
+        if found is None or not len(found):
+            return None
+        c, d = (a @ found[0]).max(axis=1).tolist()
+        e, f = (b @ found[0]).min(axis=1).tolist()
+        x, y = map(int, found[0].tolist())
+        cut = frame.cut(1.0, (x, y), ((c + e) / 2, (d + f) / 2), min(e - c, f - d))
+        return (1.0, cut, mine, ((c, d), (e, f))) if cut.gap > 0 else None
+
     def _is_leaf(self, rows: Sequence[int]) -> bool:
         """Return True for bodies of one group."""
         return len({self._group[k] for k in rows}) == 1
+
+
+def direction_between(one: Floats, other: Floats, *, is_round: bool) -> Floats | None:
+    """Return a direction in which a group of vertices is before another one at start and end.
+
+    It is in the middle of the vectors from one group to the other, with short numbers. No row if
+    it does not exist: these are in no half-plane. None if doubles are too near to find that out.
+    """
+    apart = other[:, :, None] / 2 - one[:, None] / 2  # the differences are doubles
+    angles = np.arctan2(apart[..., 1], apart[..., 0]).ravel()
+    first = float(angles[0])
+    turns = (angles - first + pi) % (2 * pi) - pi
+    least, most = float(turns.min()), float(turns.max())
+    room = pi - (most - least)
+    if room < -UNCERTAIN:
+        return np.empty((0, 2))
+    if not room > UNCERTAIN or is_round:
+        return None
+    middle, bits = first + (least + most) / 2, min(max(ceil(log2(3 / room)), 1), 50)
+    x, y = cos(middle), sin(middle)
+    longest, unit = max(abs(x), abs(y)), 2.0**bits
+    return np.array([[float(round(f / longest * unit)) for f in (x, y)]])

@@ -9,7 +9,7 @@ import pytest
 from exactpt import Body, Rigid, Scene, Translation
 from exactpt.check_apart import planes_of, side_of
 from exactpt.proof.frame import Frame
-from exactpt.proof.paths import Paths, Plane
+from exactpt.proof.paths import DIRECTIONS, Paths, Plane
 from exactpt.proof.whole import WholeBodies
 from exactpt.scene.generate import generate
 
@@ -84,8 +84,9 @@ def test_extents_of_straight_paths_decide_as_their_points_do():
     found = [0, 0]
     for scene in scenes():
         _, frame = frame_of(scene)
-        for n, m in [(1, 0), (0, 1), (1, -1), (3, 2)] if frame.is_straight else []:
-            low, high = frame.body_extents(np.array([(n, m)]))
+        extents = frame.body_extents()
+        for k, (n, m) in enumerate(DIRECTIONS.tolist() if frame.is_straight else []):
+            low, high = (of[..., [k]] for of in extents)
             middles = sorted({*(low / 2 + high / 2).mean(axis=0)[:, 0].tolist()})
             for c in map(Fraction, np.convolve(middles, [0.5, 0.5], "valid").tolist()):
                 rows = (high[..., 0] < c).all(axis=0)
