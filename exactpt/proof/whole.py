@@ -137,7 +137,7 @@ class WholeBodies:
 
 
 def direction_between(one: Floats, other: Floats, *, is_round: bool) -> Floats | None:
-    """Return a direction in which a group of vertices is before another one at start and end.
+    """Return a direction in which a group of vertices is before a second group at start and end.
 
     It is in the middle of the vectors from one group to the other, with short numbers. No row if
     it does not exist: these are in no half-plane. None if doubles are too near to find that out.
