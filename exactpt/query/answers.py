@@ -120,15 +120,12 @@ def hit_later(
     source: Callable[[], tuple[Point, QQ]],
 ) -> Hit:
     """Return a hit whose point and parameter come from a call, when one of them is first read."""
-    hit = object.__new__(Hit)
-    for name, value in (
-        ("body", body),
-        ("vertex", vertex),
-        ("edge", edge),
-        ("crossed", crossed),
-        ("_source", source),
-    ):
-        object.__setattr__(hit, name, value)
+    hit, put = object.__new__(Hit), object.__setattr__
+    put(hit, "body", body)
+    put(hit, "vertex", vertex)
+    put(hit, "edge", edge)
+    put(hit, "crossed", crossed)
+    put(hit, "_source", source)
     return hit
 
 

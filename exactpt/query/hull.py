@@ -78,7 +78,8 @@ class Hull:
         left, right = most, least if least > most else least + n
         while left + 1 < right:
             middle = (left + right) // 2
-            at = value(middle)
+            x, y, _ = corners[middle % n]
+            at = dx * y - dy * x - c
             if at > off:
                 left = middle
             elif at < -off:

@@ -12,7 +12,7 @@ from exactpt.indices import VertexId
 from exactpt.query.answers import PLACES, Hit, Place, hit_later
 from exactpt.query.nodes import Given
 from exactpt.query.ray import Ray, reach
-from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision
+from exactpt.query.subdivision import BEYOND, OUTSIDE, On, Spot, Subdivision
 from exactpt.query.walk import follow
 
 _TILE, _DIAGONAL, _OUTSIDE, _BODY, _EDGE, _VERTEX = range(len(PLACES))
@@ -26,7 +26,7 @@ def find(plane: Subdivision, p: Given) -> tuple[Spot, int]:
     """
     if not plane.face:  # at most one point
         is_node = plane.points == [p]
-        return Spot(On.NODE, 0) if is_node else Spot(On.FACE, OUTSIDE), 0
+        return Spot(On.NODE, 0) if is_node else BEYOND, 0
     cell = plane.nodes.cell(*plane.nodes.of(p))
     start = plane.starts.get(cell)
     if start is None:
@@ -95,7 +95,7 @@ def cast(plane: Subdivision, ray: Ray) -> Hit | None:
     Every node belongs to a body, so a ray can only cross the interior of a diagonal without
     hitting a body.
     """
-    spot = Spot(On.FACE, OUTSIDE)
+    spot = BEYOND
     if not ray.begins_outside():
         spot, _ = find(plane, ray.given)
         hit = _hit(plane, ray, spot, (), 0)

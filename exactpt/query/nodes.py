@@ -47,9 +47,9 @@ class Nodes:
         first = points[0] if points else (QQ(0), QQ(0))
         # Near the first node; doubles minus doubles need no rational number.
         self._origin = finite(nearest_float(first[0])), finite(nearest_float(first[1]))
-        origin = exact(self._origin)
-        near = [difference(origin, point) for point in points]
-        self.xs, self.ys = [x for x, _ in near], [y for _, y in near]
+        ox, oy = exact(self._origin)
+        self.xs = [nearest_float(x - ox) for x, _ in points]
+        self.ys = [nearest_float(y - oy) for _, y in points]
         self.size = max(map(abs, (*self.xs, *self.ys)), default=0.0)
         self._x, self._y = min(self.xs, default=0.0), min(self.ys, default=0.0)
         wide = max(max(self.xs, default=0.0) - self._x, max(self.ys, default=0.0) - self._y)

@@ -53,6 +53,10 @@ class Spot(NamedTuple):
     handle: i64
 
 
+BEYOND: Final = Spot(On.FACE, OUTSIDE)
+"""The cell of the points outside the convex hull."""
+
+
 def cross(u: Point, v: Point) -> QQ:
     """Return the cross product of two vectors: positive if v is to the left of u."""
     return u[0] * v[1] - u[1] * v[0]
@@ -80,6 +84,7 @@ class Subdivision:
         names: names of the bodies, in the order of the scene.
         first: first node of each body; the last entry is the number of nodes.
         body: index of the body of each node.
+        ahead: for each half-edge, see `look_ahead`; None before its first call.
         starts: where walks to the points of a cell of the nodes' grid begin, if some did.
     """
 
@@ -101,7 +106,7 @@ class Subdivision:
         self._link(bodies)
         self.starts: dict[tuple[int, int], tuple[Given, Spot]] = {}
         self._outlines: dict[int, list[list[Corner]]] = {}
-        self._ahead: list[list[Corner] | None] = [None] * len(self.face)
+        self.ahead: list[tuple[list[Corner], HalfEdge] | None] = [None] * len(self.face)
 
     def direction(self, h: HalfEdge) -> Point:
         """Return the vector from the origin of a half-edge to its target."""
@@ -123,17 +128,21 @@ class Subdivision:
             ]
         return known
 
-    def ahead(self, h: HalfEdge) -> list[Corner]:
-        """Return the corners after a half-edge around its face, the last one at its origin.
+    def look_ahead(self, h: HalfEdge) -> tuple[list[Corner], HalfEdge]:
+        """Return the face of a half-edge as seen from it; after the first call also in `ahead`.
 
-        There are none of the face outside, and of a face with several cycles.
+        Returns:
+            The corners after the half-edge up to its origin, which is left out, each with the twin
+            of the half-edge that ends at it; the twin of the last one. Of the face outside, and of
+            a face with several cycles, no corners and -1.
         """
-        known = self._ahead[h]
-        if known is None:
-            face = self.face[h]
-            cycle = self.map.face(h)[1:] if face != OUTSIDE and len(self.cycles[face]) == 1 else []
-            known = self._ahead[h] = [(*self.place(twin(g)), g) for g in cycle]
-        return known
+        face = self.face[h]
+        corners, last = list[Corner](), NO_HALF_EDGE
+        if face != OUTSIDE and len(self.cycles[face]) == 1:
+            corners = [(*self.place(twin(g)), twin(g)) for g in self.map.face(h)[1:]]
+            last = corners.pop()[2]
+        self.ahead[h] = corners, last
+        return corners, last
 
     @cached_property
     def hull(self) -> Hull | None:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.query.ray import Ray
-from exactpt.query.subdivision import OUTSIDE, On, Spot, Subdivision, cross
+from exactpt.query.subdivision import BEYOND, OUTSIDE, On, Spot, Subdivision, cross
 
 
 class RayStep(NamedTuple):
@@ -87,27 +87,28 @@ def _across_faces(
     """
     (dx, dy, c), crossed = ray.line, 0
     right, left = c - ray.off, c + ray.off
-    has_goal, faces, boundary = ray.goal is not None, plane.face, plane.boundary
+    has_goal, faces, boundary, ahead = ray.goal is not None, plane.face, plane.boundary, plane.ahead
     while True:
-        end, corners = NO_HALF_EDGE, iter(plane.ahead(entry))
-        for x, y, h in corners:
+        corners, beyond = ahead[entry] or plane.look_ahead(entry)
+        others = iter(corners)
+        for x, y, h in others:
             value = dx * y - dy * x
             if not value < right:
-                end = h if value > left else NO_HALF_EDGE
+                beyond = h if value > left else NO_HALF_EDGE
+                for u, v, _ in others:
+                    if not dx * v - dy * u > left:
+                        beyond = NO_HALF_EDGE
+                        break
                 break
-        for x, y, _ in corners:
-            if not dx * y - dy * x > left:
-                end = NO_HALF_EDGE
-                break
-        if end == NO_HALF_EDGE:
+        if beyond == NO_HALF_EDGE:
             step = _through_face(plane, ray, faces[entry], Spot(On.EDGE, entry), entry)
             if step.end is None or step.end.on is On.NODE:
                 return step, crossed
-            end = HalfEdge(step.end.handle)
-        is_wall = boundary[end >> 1] and not through_bodies
-        if is_wall or (has_goal and ray.beyond_at_edge(end) >= 0):
-            return RayStep(Spot(On.FACE, faces[entry]), Spot(On.EDGE, end)), crossed
-        entry, crossed = twin(end), crossed + 1
+            beyond = twin(HalfEdge(step.end.handle))
+        is_wall = boundary[beyond >> 1] and not through_bodies
+        if is_wall or (has_goal and ray.beyond_at_edge(twin(beyond)) >= 0):
+            return RayStep(Spot(On.FACE, faces[entry]), Spot(On.EDGE, twin(beyond))), crossed
+        entry, crossed = beyond, crossed + 1
 
 
 def _step_from(plane: Subdivision, ray: Ray, spot: Spot) -> RayStep:
@@ -138,7 +139,7 @@ def _into_hull(plane: Subdivision, ray: Ray) -> RayStep | None:
     if edge is None:
         return None
     is_ahead = edge != NO_HALF_EDGE and ray.begins_before(edge)
-    return RayStep(Spot(On.FACE, OUTSIDE), Spot(On.EDGE, edge) if is_ahead else None)
+    return RayStep(BEYOND, Spot(On.EDGE, edge) if is_ahead else None)
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
@@ -184,7 +185,7 @@ def _through_face(
     or an edge of the hull to the outside a ray is without end, since the hull is convex.
     """
     if face == OUTSIDE and since.on is not On.FACE:
-        return RayStep(Spot(On.FACE, OUTSIDE), None)
+        return RayStep(BEYOND, None)
     (dx, dy, c), off = ray.line, ray.off
     starts_here = since.on is On.NODE and ray.origin == plane.points[since.handle]
     ends: list[HalfEdge] = []
