@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, combinations
+from math import nextafter
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.certificates.positions import positions_at
+from exactpt.certificates.positions import Positions, positions_at
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import near_groups, segments_meet
@@ -34,6 +35,8 @@ Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
 
 MAX_PAIRS: Final = 250_000
 """Maximum number of pairs of bodies that share a point at the start."""
+FEW: Final = 32
+"""Maximum number of vertices whose positions at the start are computed without numpy."""
 
 
 def initial_touches(
@@ -83,10 +86,10 @@ def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
 
     Bodies of other pairs are certainly disjoint.
     """
-    x, y, error = positions_at(vertices, *vertices.normalization.time(start))
     rings = [moving.ring for moving in vertices.bodies]
-    if not rings:
-        return []
+    if sum(map(len, rings)) <= FEW:
+        return _near_of_few(vertices, start)
+    x, y, error = positions_at(vertices, *vertices.normalization.time(start))
     ids = np.fromiter(chain.from_iterable(rings), np.int64)
     firsts = np.cumsum([0, *map(len, rings[:-1])])
     boxes = np.empty((len(rings), 4))
@@ -104,6 +107,29 @@ def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
         if len(near) > MAX_PAIRS:
             return None
     return near
+
+
+def _near_of_few(vertices: Vertices, start: QQ) -> list[tuple[int, int]]:
+    """Return the result of `near_pairs`, without numpy.
+
+    An infinite error makes a side infinite or NaN, which separates nothing.
+    """
+    here, boxes = Positions(vertices), list[tuple[float, float, float, float]]()
+    here.move_to(*vertices.normalization.time(start))
+    for moving in vertices.bodies:
+        ring = [vertices.all[v] for v in moving.ring]
+        for vertex in ring:
+            here.find(vertex)
+        error = max(vertex.error for vertex in ring)
+        xs, ys = [vertex.x for vertex in ring], [vertex.y for vertex in ring]
+        low = nextafter(min(xs) - error, -INFINITY), nextafter(min(ys) - error, -INFINITY)
+        high = nextafter(max(xs) + error, INFINITY), nextafter(max(ys) + error, INFINITY)
+        boxes.append((*low, *high))
+    return [
+        (i, j)
+        for (i, (x, y, right, top)), (j, (u, v, end, above)) in combinations(enumerate(boxes), 2)
+        if not (x > end or u > right or y > above or v > top)
+    ]
 
 
 def _with_radii(

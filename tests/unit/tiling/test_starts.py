@@ -14,6 +14,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion import vertices as moving_vertices
 from exactpt.motion.linear_rows import linear_rows
 from exactpt.motion.vertices import HORIZON, WIDTH
+from exactpt.pairs import start
 from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.pseudotriangulation import build, stars
 from exactpt.scene.generate import FAMILIES, generate
@@ -111,14 +112,33 @@ def boxes_in_doubles(scene):
     return near_pairs(vertices, scene._start)
 
 
+@pytest.mark.parametrize("few", [0, 1 << 30])
 @pytest.mark.parametrize("family", FAMILIES)
-def test_pairs_that_are_not_near_are_disjoint_at_the_start(family):
+def test_pairs_that_are_not_near_are_disjoint_at_the_start(family, few, monkeypatch):
     """Contacts at the start among the scenes: the same incidences as from all pairs."""
+    monkeypatch.setattr(start, "FEW", few)
     for seed in range(6):
         scene = generate(family, seed)
         if not scene.has_radius:
             near = boxes_in_doubles(scene)
             assert initial_touches(scene, near) == initial_touches(scene)
+
+
+@pytest.mark.parametrize("few", [0, start.FEW])
+def test_few_boxes_out_of_the_range_of_doubles(few, monkeypatch):
+    """At 1/3, so that positions are rounded: those far from it are near nothing, or everything."""
+    monkeypatch.setattr(start, "FEW", few)
+    places = [0, 10**400, 1.7e308, 9, 9.5]
+    bodies = [
+        Body(f"b{k}", [(x, 0), (Fraction(x) + 1, 0), (x, 1)], Translation([0], [0, k]))
+        for k, x in enumerate(places)
+    ]
+    scene = Scene(bodies, (Fraction(1, 3), 2))
+
+    near = boxes_in_doubles(scene)
+
+    assert {(3, 4)} <= set(near)
+    assert initial_touches(scene, near) == initial_touches(scene)
 
 
 def test_stars_that_doubles_sort_wrongly_are_sorted_by_predicates(monkeypatch):
