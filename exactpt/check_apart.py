@@ -23,9 +23,9 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
-from itertools import accumulate, chain, pairwise, zip_longest
+from itertools import accumulate, chain, dropwhile, pairwise, zip_longest
 from math import comb, gcd, isqrt, lcm
-from operator import mul
+from operator import mul, not_
 from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
@@ -52,7 +52,7 @@ class Poly(tuple[Any, ...]):
     __slots__ = ()
     def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
         f = tuple.__new__(cls, coefficients)
-        while f and (not f[-1]): f = tuple.__new__(cls, f[:-1])
+        if f and (not f[-1]): f = tuple.__new__(cls, [*dropwhile(not_, f[::-1])][::-1])
         return f
     def __add__(self, g: 'Poly') -> 'Poly':
         both = self and g; return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)]) if both else self or g

@@ -26,9 +26,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import accumulate, chain, combinations, pairwise, zip_longest
+from itertools import accumulate, chain, combinations, dropwhile, pairwise, zip_longest
 from math import comb, floor, gcd, lcm
-from operator import mul
+from operator import mul, not_
 from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
@@ -122,8 +122,8 @@ class Poly(tuple[Any, ...]):
 
     def __new__(cls, coefficients: Iterable[Any] = ()) -> "Poly":  # noqa: D102
         f = tuple.__new__(cls, coefficients)
-        while f and not f[-1]:
-            f = tuple.__new__(cls, f[:-1])
+        if f and not f[-1]:
+            f = tuple.__new__(cls, [*dropwhile(not_, f[::-1])][::-1])
         return f
 
     def __add__(self, g: "Poly") -> "Poly":  # type: ignore[override]

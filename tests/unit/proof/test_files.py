@@ -13,7 +13,7 @@ from folding import every
 from proving import accepted, proof_of
 
 import exactpt
-from exactpt import InputError, proof_check
+from exactpt import InputError, check_apart, proof_check
 from exactpt.cli import cli
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.generate import generate
@@ -57,6 +57,26 @@ def test_bug_a_line_is_measured_in_bytes(monkeypatch):
     proof_check.read(head % b"# 2345678901234567890123456789")
     with pytest.raises(proof_check.NoProofError, match="line 4 is too long"):
         proof_check.read(head % "# äöüäöüäöüäöüäöüäöü".encode())
+
+
+@pytest.mark.parametrize("checker", [proof_check, check_apart])
+def test_bug_the_zeros_of_a_polynomial_were_cut_off_one_by_one(checker):
+    """Each made a copy: a list of 200,000 zeros took a minute."""
+    lines = []
+
+    def count(_frame, event, _argument):
+        lines.append(event)
+        return count
+
+    before = sys.gettrace()
+    sys.settrace(count)
+    try:
+        f = checker.Poly([1, 2, *[0] * 5_000])
+    finally:
+        sys.settrace(before)
+
+    assert f == (1, 2)
+    assert 0 < lines.count("line") < 20
 
 
 def test_first_contact_writes_the_proof_and_the_scene(scene, tmp_path):
