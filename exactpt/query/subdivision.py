@@ -29,6 +29,9 @@ from exactpt.query.nodes import Given, Nodes
 OUTSIDE: Final = -1
 """The face outside the convex hull."""
 
+_MAX_CORNERS: Final = 32
+"""Of larger faces no corners are kept for each half-edge: memory would grow with the square."""
+
 Corner: TypeAlias = tuple[float, float, HalfEdge]
 """A node on the boundary of a face, in doubles (`Nodes`), and the half-edge that ends at it."""
 
@@ -133,13 +136,14 @@ class Subdivision:
 
         Returns:
             The corners after the half-edge up to its origin, which is left out, each with the twin
-            of the half-edge that ends at it; the twin of the last one. Of the face outside, and of
-            a face with several cycles, no corners and -1.
+            of the half-edge that ends at it; the twin of the last one. Of the face outside, of a
+            face with several cycles, and of one of many corners, no corners and -1.
         """
         face = self.face[h]
+        cycle = self.map.face(h)[1:]
         corners, last = list[Corner](), NO_HALF_EDGE
-        if face != OUTSIDE and len(self.cycles[face]) == 1:
-            corners = [(*self.place(twin(g)), twin(g)) for g in self.map.face(h)[1:]]
+        if face != OUTSIDE and len(self.cycles[face]) == 1 and len(cycle) < _MAX_CORNERS:
+            corners = [(*self.place(twin(g)), twin(g)) for g in cycle]
             last = corners.pop()[2]
         self.ahead[h] = corners, last
         return corners, last

@@ -197,6 +197,21 @@ def test_a_location_takes_one_walk_and_no_rational_number_in_a_known_cell(monkey
     assert len(made) <= 6 * (len(walks) - sum(from_middles))
 
 
+def test_bug_corners_of_large_faces_are_kept_once():
+    """They were for each half-edge at which a ray came in: the square of the teeth of a comb."""
+    teeth = [(x, y) for i in range(60) for x, y in ((2 * i, 9), (2 * i + 1, 1))]
+    bodies = [Body("comb", [(-1, 0), (121, 0), (121, 9), *reversed(teeth)]), Body("b", [(60, 20)])]
+    space = FreeSpace(start_tiling(Scene(bodies), "auto", 0), 0)
+    for i in range(120):
+        hit = space.ray_cast((i + 0.25, 30.0), (0.125, -30.0))
+        assert hit.body == "comb"
+        assert space.locate((i + 0.25, 0.5)).body == "comb"
+    kept = [len(known[0]) for known in space._plane.ahead if known]
+    assert max(len(space._plane.map.face(cycle[0])) for cycle in space._plane.cycles.values()) > 99
+    assert len(kept) > 100
+    assert max(kept) <= 30
+
+
 def test_walks_are_short():
     """Their length does not grow with the number of bodies."""
     scene = generate("convex", 5)
