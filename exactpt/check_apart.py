@@ -79,7 +79,8 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     if k < 2: return [*map(sum, polynomials)]
     if (n | d) >> 64:
         size = words(d) * (k * words(n) + longest(chain(*polynomials))); WORK.spend(len(polynomials) * k ** 2 * size)
-    powers = [n ** i * d ** (k - 1 - i) for i in range(k)]; found = [sum(map(mul, f, powers)) for f in polynomials]
+    powers = [n ** i * d ** (k - 1 - i) for i in range(k if n else 1)]
+    found = [sum(map(mul, f, powers)) for f in polynomials]
     WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
     p, q, r, s = (turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b))
@@ -399,13 +400,12 @@ def hull(track: Track, a: int, b: int, m: int) -> Hull:
     Its degree is that of the track plus 1, or 1 if the path is linear: then these are its ends.
     (Where a w is not positive no such point exists, but these multiples have that meaning.)
     """
-    d = max(map(len, track)) - 1
     f, g, h = track
     WORK.spend(10 + words(a * b * m))
-    if d < 2 and len(h) == 1:
+    if len(h) == 1 and len(f) < 3 > len(g):
         (x, u), (y, v), n = (*f, 0, 0)[:2], (*g, 0, 0)[:2], h[0]
         return [(x * m + u * t, y * m + v * t, n * t, n * m) for t in (a, b)]
-    x, y, w = (spread(f, d, a, b, m) for f in track)
+    x, y, w = (spread(f, max(map(len, track)) - 1, a, b, m) for f in track)
     both = zip([*x, 0], [0, *x], [*y, 0], [0, *y], [*w, 0], [0, *w], strict=True)
     return [(m * (p + q), m * (r + s), a * t + b * u, m * (t + u)) for p, q, r, s, t, u in both]
 

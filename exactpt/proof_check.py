@@ -424,7 +424,7 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     if (n | d) >> 64:
         size = words(d) * (k * words(n) + longest(chain(*polynomials)))
         WORK.spend(len(polynomials) * k**2 * size)
-    powers = [n**i * d ** (k - 1 - i) for i in range(k)]
+    powers = [n**i * d ** (k - 1 - i) for i in range(k if n else 1)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
     WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6)))
     return found

@@ -104,7 +104,7 @@ class Frame:
             return None
         moves: Floats = np.array([[of[k] for of in moved if of] for k in (1, 2)])
         moved_by = float(np.abs(moves).max()) + max(map(abs, self._origin))
-        self._size = max(moved_by, float(np.abs(self._paths.shapes[2]).max()))
+        self._size = max(moved_by, self._paths.shapes[3])
         relative: Floats = moves - self._origin
         return relative
 
@@ -221,7 +221,7 @@ class Frame:
             along, firsts = self.ends @ DIRECTIONS.T, self._table.first_vertices
             low, high = (f.reduceat(along, firsts, 1) for f in (np.minimum, np.maximum))
         else:
-            along, (least, most, _) = self._moves @ DIRECTIONS.T, self._paths.shapes
+            along, (least, most, *_) = self._moves @ DIRECTIONS.T, self._paths.shapes
             low, high = (of[self.bodies] + along for of in (least, most))
         return self._wider(low, high, self._paths.wide_bodies, self.bodies, DIRECTIONS)
 

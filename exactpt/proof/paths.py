@@ -89,8 +89,8 @@ class Paths:
         self._made = dict[tuple[int, int], Any]()
 
     @cached_property
-    def shapes(self) -> tuple[Floats, Floats, Floats]:
-        """The least and largest values of shapes in the usual directions, and their vertices.
+    def shapes(self) -> tuple[Floats, Floats, Floats, float]:
+        """The least and largest values of shapes in the usual directions, vertices, and the size.
 
         Without the motions, in doubles; a shape that has none is at the origin.
         """
@@ -98,7 +98,7 @@ class Paths:
         along = np.array([[*chain(*some)] for some in zip(*places, strict=True)]).T
         values = along @ DIRECTIONS.T
         low, high = (f.reduceat(values, self.first) for f in (np.minimum, np.maximum))
-        return low, high, along
+        return low, high, along, float(np.abs(along).max())
 
     def translation(self, body: int, start: QQ, end: QQ) -> Moved | None:
         """Return the shape of a body in doubles, and where it is moved at the start and the end.

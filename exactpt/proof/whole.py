@@ -24,6 +24,8 @@ VECTORS: Final = 10_000
 UNCERTAIN: Final = 1e-12
 """Of a smaller angle between such vectors the sign is not taken: a proposal needs no proof."""
 
+USUAL: Final = DIRECTIONS.tolist()
+
 Ends: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 Found: TypeAlias = tuple[float, Cut, set[int], Ends]
 """The worth of a line, the line, the bodies below it, and the extents on both of its sides."""
@@ -88,10 +90,12 @@ class WholeBodies:
         after_end = [*accumulate([low_ends[k] for k in rows], min)]
         size = max(before[-1], before_end[-1]) - min(after[-1], after_end[-1])
         best, at, rests = 0.0, 0, False
-        for i in range(1, count):
-            a, b, c, d = before[i - 1], before_end[i - 1], after[-1 - i], after_end[-1 - i]
-            gap = min(c - a, d - b)
-            if gap > CLEAR * size:
+        after.reverse()
+        after_end.reverse()
+        places = zip(before, before_end, after[1:], after_end[1:], strict=False)
+        for i, (a, b, c, d) in enumerate(places, 1):
+            if c - a > CLEAR * size and d - b > CLEAR * size:
+                gap = min(c - a, d - b)
                 rest = min(c, d) - max(a, b) > AT_REST * gap
                 worth = min(i, count - i) / count + 0.2 * rest + 0.3 * min(gap / size, 0.3)
                 if self._are_grouped:
@@ -100,11 +104,11 @@ class WholeBodies:
                     best, at, rests = worth, i, rest
         if not at:
             return None
-        a, b, c, d = before[at - 1], before_end[at - 1], after[-1 - at], after_end[-1 - at]
+        a, b, c, d = before[at - 1], before_end[at - 1], after[at], after_end[at]
         if rests:
             a = b = max(a, b)
             c = d = min(c, d)
-        x, y = DIRECTIONS[j].tolist()
+        x, y = USUAL[j]
         return (
             best,
             self._frame.cut(best, (x, y), ((a + c) / 2, (b + d) / 2), min(c - a, d - b)),
