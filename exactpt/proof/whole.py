@@ -82,7 +82,9 @@ class WholeBodies:
         """Return the line of most worth in a direction, with the bodies below it."""
         lows, low_ends, highs, high_ends, middles = self._extents[j]
         rows = sorted(rows, key=middles.__getitem__)
-        count = len(rows)
+        count, i, k = len(rows), rows[0], rows[-1]
+        if count == 2 and (highs[i] >= lows[k] or high_ends[i] >= low_ends[k]):
+            return None  # half of all nodes have two bodies
         before = [*accumulate([highs[k] for k in rows], max)]
         before_end = [*accumulate([high_ends[k] for k in rows], max)]
         rows.reverse()
