@@ -83,6 +83,9 @@ class SimpleMotion(Protocol):
         ...
 
 
+_UNTURNED: Final = QQ(1), QQ(0)
+
+
 @final
 class Translation(_Given):
     """A translation by (x(t), y(t)), added to every vertex.
@@ -120,7 +123,7 @@ class Translation(_Given):
 
     def _map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
         """As `Rigid._map_at`."""
-        return QQ(1), QQ(0), *self._at(t)
+        return *_UNTURNED, self.x._at(t), self.y._at(t)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.x, self.y), {}

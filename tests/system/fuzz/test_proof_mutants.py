@@ -10,8 +10,9 @@ from click.testing import CliRunner
 
 import exactpt
 from exactpt import AuditError, Scene, check_apart, proof_check, prove
-from exactpt.scene.generate import generate
-from fuzz.campaign import Progress, campaign
+from exactpt.scene.generate import EVERY, generate
+from fuzz.campaign import Item, Progress, campaign
+from fuzz.limits import TooSlow
 from fuzz.proofs import apart, both, checking
 from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
@@ -226,6 +227,23 @@ def test_a_checker_without_a_check_is_found(tmp_path, monkeypatch, check):
     done = run(tmp_path, 1, start=numbers[check])
     assert done.exit_code == 1, done.output
     assert list((tmp_path / "found").iterdir())
+
+
+@pytest.mark.parametrize("slow, rows", [("generate", []), ("is_true", ["convoy"])])
+def test_bug_a_slow_reference_ended_the_worker_of_a_campaign(slow, rows, tmp_path, monkeypatch):
+    """Only a certificate that does not come is a finding."""
+
+    def take_too_long(*_):
+        raise TooSlow
+
+    monkeypatch.setattr(apart, slow, take_too_long)
+    number = sorted(EVERY).index("convoy")
+    item = Item(range(number, number + 1))
+
+    result = apart.Apart(0, tmp_path).run(item, lambda _: None, None)
+
+    assert [name for name, column in result.counts if column == "not compared to the end"] == rows
+    assert [finding.signature for finding in result.findings] == ["hangs"] * (not rows)
 
 
 def test_truth_by_all_pairs():
