@@ -1211,9 +1211,8 @@ class Checker:
                 self.look_at(sample)
                 self.line = line
             elif row != ["none"] or self.scene.bodies:
-                require(
-                    row[0] == "contact" and time.compare_rational(start) == 0, "there is no map"
-                )
+                at_start = row[0] == "contact" and time.compare_rational(start) == 0
+                require(at_start, "there is no map")
                 self.now = time = Time(start)  # the interval of a root has other ends
             if row[0] == "event":
                 self.event(time, row[k:])
