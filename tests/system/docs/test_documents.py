@@ -49,10 +49,6 @@ def test_the_code_of_the_readme_runs(capsys):
     assert capsys.readouterr().out == shown
 
 
-def test_the_readme_has_at_most_90_lines():
-    assert len(README.splitlines()) <= 90
-
-
 @every("page", [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))])
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
