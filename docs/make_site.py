@@ -76,7 +76,7 @@ def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
     In a search, pages of packages are below all others, and those on tasks above.
     """
     name = page.file.src_uri
-    if (name.startswith("reference/") and name not in TASKS) or name == "claims.md":
+    if name.startswith("reference/") and name not in TASKS:
         page.meta["search"] = {"boost": 0.2}
     elif name.startswith("howto/") or name in TASKS:
         page.meta["search"] = {"boost": 2}

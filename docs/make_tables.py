@@ -7,9 +7,8 @@ benchmarks that are shown in both builds have a second folder NAME-compiled.
 A page, or README, has on a line of its own ``<!-- table FOLDER/FILE.csv: VIEW -->``; FOLDER is in
 docs/data. The lines from there to ``<!-- end of table -->`` are replaced by the table, and by the
 date, the commit and the machine of FOLDER/machine.txt (but with ``rows`` for ``table``: where the
-page links to a table that has them). ``<!-- value FOLDER/FILE.csv: CELL -->``,
-in a line, is followed by one cell up to ``<!-- end -->``. Pictures are shown where benchmarks
-write them. A file of docs/data that no page names is removed.
+page links to a table that has them). Pictures are shown where benchmarks write them. A file of
+docs/data that no page names is removed.
 
 VIEW is ``COLUMNS``, separated by commas, or ``ROWS across COLUMNS, CELL``: one line for each value
 of the columns ROWS, one column for each value of COLUMNS (each of them one name, or some joined by
@@ -31,7 +30,6 @@ Row: TypeAlias = dict[str, str]
 TABLE: Final = re.compile(
     r"(<!-- (table|rows) ([^:\n]+): ([^\n]+) -->\n).*?(<!-- end of table -->)", re.DOTALL
 )
-VALUE: Final = re.compile(r"(<!-- value ([^:\n]+): ([^\n]+?) -->)[^\n]*?(<!-- end -->)")
 PICTURE: Final = re.compile(r"\]\((?:docs/)?data/([^)]+)\)")
 
 
@@ -41,20 +39,14 @@ def pages() -> list[Path]:
 
 
 def filled(page: str) -> str:
-    """Return a page with its marked tables and values made anew."""
-    page = TABLE.sub(lambda m: f"{m[1]}{_table(m[3], m[4], dated=m[2] == 'table')}\n{m[5]}", page)
-    return VALUE.sub(lambda m: f"{m[1]}{_value(m[2], m[3])}{m[4]}", page)
+    """Return a page with its marked tables made anew."""
+    return TABLE.sub(lambda m: f"{m[1]}{_table(m[3], m[4], dated=m[2] == 'table')}\n{m[5]}", page)
 
 
 def named(page: str) -> set[Path]:
     """Return the files of docs/data that a page names."""
-    marked = {m[3] for m in TABLE.finditer(page)} | {m[2] for m in VALUE.finditer(page)}
+    marked = {m[3] for m in TABLE.finditer(page)}
     return {DOCS / "data" / name for name in (*marked, *PICTURE.findall(page))}
-
-
-def _value(name: str, view: str) -> str:
-    cell, (row,) = _selected(DOCS / "data" / name, view)
-    return _cell(cell, row)
 
 
 def _selected(path: Path, view: str) -> tuple[str, list[Row]]:

@@ -68,11 +68,12 @@ def test_files_that_no_page_names_are_removed(tmp_path, monkeypatch):
     (folder / "x.csv").write_text("name,count\na,1234\nb,5\n")
     for name in ("machine.txt", "x.svg", "y.svg", "y.csv"):
         (folder / name).touch()
-    begin = "<!-- value x/x.csv: {count} times; where name = a -->"
-    (tmp_path / "README.md").write_text(f"[P](docs/data/x/x.svg) {begin}7<!-- end --> of {begin}")
+    begin, end = "<!-- rows x/x.csv: name, count; where name = a -->", "<!-- end of table -->"
+    (tmp_path / "README.md").write_text(f"[P](docs/data/x/x.svg)\n{begin}\nold\n{end}\n")
 
     main()
 
     text = (tmp_path / "README.md").read_text()
-    assert text == f"[P](docs/data/x/x.svg) {begin}1,234 times<!-- end --> of {begin}"
+    table = "| name | count |\n| --- | ---: |\n| a | 1,234 |"
+    assert text == f"[P](docs/data/x/x.svg)\n{begin}\n{table}\n{end}\n"
     assert {path.name for path in folder.iterdir()} == {"machine.txt", "x.svg", "x.csv"}

@@ -1,4 +1,4 @@
-"""What README and the pages say of answers, events, floats and files is so (docs/claims.md)."""
+"""Statements of README and the pages about results, events, floats and files."""
 
 import inspect
 import json
@@ -19,12 +19,10 @@ from exactpt.cli.runs import collide
 from exactpt.motion import swept_edges
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs import search as straight_search
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING, generate
+from exactpt.scene.generate import generate
 
 ROOT = Path(__file__).parents[3]
 FORMAT = (ROOT / "docs" / "format.md").read_text(encoding="utf-8")
-FEATURES = (ROOT / "docs" / "features.md").read_text(encoding="utf-8")
-SPEED = (ROOT / "docs" / "speed.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.long
@@ -49,12 +47,6 @@ def test_the_kinds_of_events_on_the_format_page_are_those_that_happen():
     }
 
     assert happened == set(listed.split("|"))
-
-
-def test_the_number_of_families():
-    (stated,) = re.findall(r"generated scenes of (\d+) families", FEATURES)
-
-    assert int(stated) == sum(map(len, [FAMILIES, POINTS, RINGS, ROUNDED, SPINNING]))
 
 
 def test_a_gap_of_a_hair_is_a_gap():
@@ -109,7 +101,6 @@ def test_floats_decide_about_bodies_that_translate(request, degree, tiling, most
 def test_floats_decide_about_bodies_that_turn(request, tiling):
     if request.config.getoption("--exact-only"):
         pytest.skip("there are no filters")
-    assert "it leaves fewer than one in a hundred" in SPEED
 
     assert exact_share(crowd(turning), tiling) < 0.01
 
@@ -127,7 +118,6 @@ def convoy(count):
 
 @pytest.mark.long
 def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
-    assert "a convoy of 1,000 bodies at one velocity" in SPEED
     met = []
     find = swept_edges.crossing_pairs
 
@@ -151,14 +141,12 @@ def test_in_a_convoy_no_two_bodies_are_compared(monkeypatch):
 
 
 def test_auto_is_the_default_of_first_contact_and_collide():
-    assert "`auto`, the default" in SPEED
     assert inspect.signature(first_contact).parameters["method"].default == "auto"
     (method,) = [p for p in collide.params if p.name == "method"]
     assert method.default == "auto"
 
 
 def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
-    (stated,) = re.findall(r"(\d) times as long as the shortest of all", SPEED)
     boxes = []
     for i in range(20):
         x, y = 3 * (i % 4), 6 * (i // 4)
@@ -168,7 +156,7 @@ def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
 
     assert simulation.is_free(start, goal)
     assert simulation.shortest_path(start, goal).length == 5
-    assert int(simulation.path(start, goal).length / 5) == int(stated)
+    assert simulation.path(start, goal).length > 5
 
 
 def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkeypatch, capsys):
