@@ -17,7 +17,6 @@ from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.motion.track import Touch
-from exactpt.renamed import renamed
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
@@ -30,7 +29,6 @@ INITIAL: Final = KINDS.index("initial")
 Answer = dict[str, object]
 
 
-@renamed(question="options")
 def answers(scenes: Iterable[str | bytes], options: Options | None = None) -> Iterator[Answer]:
     """Yield the result of each scene, a JSON text (docs/format.md), without a line number.
 

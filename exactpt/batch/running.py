@@ -15,7 +15,6 @@ from exactpt.batch.options import Options
 from exactpt.batch.parquet import Rows, table
 from exactpt.errors import InputError
 from exactpt.files import writing
-from exactpt.renamed import renamed
 from exactpt.workers.cluster import results_on
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Work
@@ -40,7 +39,6 @@ class Summary(NamedTuple):
     first: str
 
 
-@renamed(question="options")
 def run(
     scenes: str | Path,
     answers: str | Path,

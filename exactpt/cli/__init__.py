@@ -32,7 +32,7 @@ LONGEST: Final = 5000
 
 
 _MODULES: Final = {
-    "batch": "batch", "bench": "bench", "check": "tilings", "collide": "runs", "convert": "files",
+    "batch": "batch", "check": "tilings", "collide": "runs", "convert": "files",
     "demo": "pictures", "draw": "pictures", "generate": "files", "judge": "truths",
     "oracle": "truths", "questions": "truths", "simulate": "runs", "tile": "tilings",
 }  # fmt: skip

@@ -44,7 +44,6 @@ from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.intervals import intervals
 from exactpt.pairs.near_features import ENOUGH, NearFeatures
 from exactpt.pairs.piece_pairs import PiecePair, piece_pairs, two_bodies
-from exactpt.renamed import warn_renamed
 from exactpt.scene.scene import Scene
 
 CLOSE: Final = power_of_two(-30)
@@ -163,11 +162,6 @@ class Clearance:
                 if below:
                     return fraction(evaluate(_poly(piece.numerator), t) / below)
         raise InputError(f"the time {show(t)} is outside of the time span")
-
-    def core_squared(self, at: Rational) -> Fraction:
-        """Return `squared_with_radius` under its former name, with a `DeprecationWarning`."""
-        warn_renamed("Clearance.core_squared", "squared_with_radius")
-        return self.squared_with_radius(at)
 
     def __call__(self, at: Rational) -> float:
         """Return the double nearest to the distance at a rational time."""

@@ -317,14 +317,6 @@ class Scene:
         return arrays.vertex_count if arrays is not None else sum(body.size for body in self.bodies)
 
     @property
-    def is_rounded(self) -> bool:
-        """`has_radius` under its former name, with a `DeprecationWarning`."""
-        from exactpt.renamed import warn_renamed
-
-        warn_renamed("Scene.is_rounded", "has_radius")
-        return self.has_radius
-
-    @property
     def has_radius(self) -> bool:
         """True if a body has a radius."""
         arrays = self._arrays

@@ -17,7 +17,6 @@ from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.renamed import renamed
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.event import Event
@@ -231,12 +230,10 @@ class Simulation:
         """
         return self._run.mutable.body(name)
 
-    @renamed(plan="motion")
     def set_motion(self, body: str, motion: Motion | Body) -> None:
         """Give a body another motion from now on, see `set_motions`."""
         self.set_motions({body: motion})
 
-    @renamed(plans="motions")
     def set_motions(self, motions: Mapping[str, Motion | Body]) -> None:
         """Give bodies other motions from now on; the current time must be rational.
 

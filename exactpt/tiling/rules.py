@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, ClassVar
-from warnings import warn
 
 from mypy_extensions import mypyc_attr
 
@@ -130,9 +129,6 @@ class Rules(Followers, ABC):
         Raises:
             RebuildNeeded: if the changes cannot be completed locally.
         """
-        if (former := getattr(self, "restore", None)) is not None:  # its name in 0.2
-            warn("Rules.restore is now recanonicalize", DeprecationWarning, stacklevel=2)
-            former()
 
     # Changes of motions, insertion and removal of bodies
 

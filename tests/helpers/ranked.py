@@ -10,7 +10,6 @@ from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.rules import Rules
 
 RANKED = Entry("ranked", Bodies.ANY, "ranked:RankedRules", is_canonical=False)
-FORMER = Entry("former", Bodies.ANY, "ranked:FormerRules", is_canonical=False)
 
 
 class RankedRules(Rules):
@@ -62,12 +61,3 @@ class RankedRules(Rules):
         for place, (a, b) in enumerate(pairwise(self.rank)):
             if not certifier.keeps_x_order(a, b):
                 table.schedule(pack(OTHER, place), certifier.x_order(a, b)[1])
-
-
-class FormerRules(RankedRules):
-    """The same, with a method by the name that `recanonicalize` had in 0.2."""
-
-    calls = 0
-
-    def restore(self):
-        FormerRules.calls += 1

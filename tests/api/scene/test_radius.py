@@ -93,8 +93,6 @@ def test_arrays_of_radii():
     assert pickle.loads(pickle.dumps(scene)) == scene
     assert Scene.from_arrays(corners, offsets, radii=2).bodies[1].radius == 2
     assert not Scene.from_arrays(corners, offsets).has_radius
-    with pytest.warns(DeprecationWarning, match="Scene.is_rounded: the name is has_radius now"):
-        assert scene.is_rounded
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ import pytest
 from commands import code_of
 from scenes_of_two import generic_lines, nearly_degenerate
 
-import exactpt
 from exactpt.batch import Options, answers, run
 from exactpt.batch.chunks import Chunk, answered, one_by_one
 from exactpt.batch.lines import Lines
@@ -444,14 +443,3 @@ def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     with pytest.raises(InputError, match="no scheduler at"):
         run(scenes, tmp_path / "answers.jsonl", scheduler="nonsense://nowhere")
     assert not list(tmp_path.glob("answers.jsonl*"))
-
-
-def test_former_name_of_the_options_works_with_a_warning():
-    with pytest.warns(DeprecationWarning, match="batch.Question: the name is Options now"):
-        former = exactpt.batch.Question
-    with pytest.warns(DeprecationWarning, match=r"answers\(question=\): the name is options now"):
-        found = answers(SCENES[:1], question=former(every=True))
-
-    assert (former, list(found)) == (Options, list(answers(SCENES[:1], Options(every=True))))
-    with pytest.raises(AttributeError, match="no attribute 'Other'"):
-        exactpt.batch.Other  # noqa: B018 - raises

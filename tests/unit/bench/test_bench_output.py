@@ -6,9 +6,7 @@ from random import Random
 
 import pytest
 from bench_help import Results
-from commands import code_of
 
-import exactpt
 from benchmarks.floor import CERTIFICATES, floor
 from benchmarks.machine import machine
 from benchmarks.peers import PEERS, is_installed
@@ -121,26 +119,3 @@ def test_each_event_computes_its_certificates():
     floor(kinetic, 10)
 
     assert kinetic.certifier.made == before + 10 * CERTIFICATES
-
-
-# `exactpt bench`: forwards in a checkout, and says where the benchmarks are from a wheel
-
-
-def test_from_a_wheel_bench_says_where_the_benchmarks_are(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(exactpt, "__file__", str(tmp_path / "exactpt" / "__init__.py"))
-
-    assert code_of("bench", "--quick") == 2
-    said = capsys.readouterr()
-    assert said.err == "exactpt bench: moved to the repository (python -m benchmarks)\n"
-    assert said.out == ""
-
-
-def test_in_a_checkout_bench_forwards(tmp_path, capsys):
-    assert code_of("bench", "statics", "--quick", "-o", tmp_path) == 0
-    assert "statics" in capsys.readouterr().out
-    assert (tmp_path / "machine.txt").is_file()
-
-
-def test_bench_reports_a_name_that_is_none(capsys):
-    assert code_of("bench", "speed") == 2
-    assert "speed" in capsys.readouterr().err

@@ -258,11 +258,9 @@ def test_a_root_less_a_rational_is_rounded_correctly(exponent):
         assert nearest_root_less(QQ(value), QQ(near)) == float(exact)
 
 
-def test_the_former_name_of_the_square_with_the_radius_warns():
+def test_the_square_with_the_radius_of_discs_that_overlap():
     scene = Scene([Body("a", [(0, 0)], radius=1), Body("b", [(1, 0)], radius=1)], time=(0, 1))
     gap = clearance(scene, "a", "b")
 
     assert distance(scene, "a", "b", at=0).core_squared == 1
     assert gap.squared_with_radius(0) == 4  # they overlap: at distance 0
-    with pytest.warns(DeprecationWarning, match="squared_with_radius"):
-        assert gap.core_squared(0) == 4

@@ -193,22 +193,6 @@ def at(simulation, t):
     return simulation
 
 
-def test_former_keyword_plan_works_with_a_warning():
-    scene = Scene([Body("a", [(0, 0)], Translation([0, 1]))], (0, 9))
-    runs = [Simulation(scene) for _ in range(3)]
-    turned = onward(runs[0].body("a"), 0, (0, 1))
-
-    runs[0].set_motion("a", motion=turned)
-    with pytest.warns(DeprecationWarning, match=r"set_motion\(plan=\): the name is motion now"):
-        runs[1].set_motion("a", plan=turned)
-    with pytest.raises(TypeError, match="both are one"):
-        runs[1].set_motion("a", plan=turned, motion=turned)
-    with pytest.warns(DeprecationWarning, match=r"set_motions\(plans=\): the name is motions now"):
-        runs[2].set_motions(plans={"a": turned})
-
-    assert [run.body("a").motion for run in runs] == [turned] * 3
-
-
 def test_a_plan_that_jumps_is_refused():
     simulation = at(two_boxes(), 2)
     with pytest.raises(InputError, match=r"vertex 0 jumps at t = 2 from \(2, 0\) to \(0, 0\)"):

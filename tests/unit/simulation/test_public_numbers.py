@@ -2,7 +2,8 @@
 
 `limit_denominator` of gmpy2 2.3 frees the number that it is called on where it returns that: called
 on one of ours, it broke a later run. So all that a caller can reach is walked through, by
-reflection: a public attribute or method that is new is found, and called.
+reflection: a public attribute that is new is found, and a new method is called if it needs no
+arguments, or has its arguments in `ARGUMENTS`.
 """
 
 import inspect
@@ -28,8 +29,6 @@ from exactpt import (
 from exactpt.errors import BudgetExceeded
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pseudotriangulation.snapshot import Snapshot
-
-pytestmark = pytest.mark.filterwarnings("ignore:.*the name is .* now:DeprecationWarning")
 
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction, range}
 
@@ -62,7 +61,6 @@ ARGUMENTS = {
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
-    "core_squared": ("1/3",),
     "squared_with_radius": ("1/3",),
     "squared": ("1/3",),
     "shorten": ([(-50, -50), (50, -50), (50, 50)],),
@@ -77,7 +75,7 @@ ARGUMENTS = {
     "with_radius": ("1/3",),
     "with_motion": (Translation([0, "1/3"]),),
 }
-"""What methods are called with, those of one class first; without an entry, with nothing."""
+"""The arguments of methods, those of one class first; without an entry, there are none."""
 
 ELSEWHERE = {
     "add", "remove", "set_motion", "set_motions", "run", "run_to_contact", "step",  # below
@@ -130,8 +128,18 @@ def answer(value, name):
     attribute = getattr(value, name)
     if not inspect.isroutine(attribute):
         return attribute
-    arguments = ARGUMENTS.get(f"{type(value).__name__}.{name}", ARGUMENTS.get(name, ()))
-    return attribute(*arguments)
+    arguments = ARGUMENTS.get(f"{type(value).__name__}.{name}", ARGUMENTS.get(name))
+    if arguments is not None:
+        return attribute(*arguments)
+    return attribute() if can_be_called_without_arguments(attribute) else None
+
+
+def can_be_called_without_arguments(function):
+    try:
+        inspect.signature(function).bind()
+    except (TypeError, ValueError):  # arguments are missing, or the signature is unknown
+        return False
+    return True
 
 
 def no_leaks(**objects):

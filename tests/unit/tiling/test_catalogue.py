@@ -7,7 +7,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from ranked import FORMER, RANKED, FormerRules
+from ranked import RANKED
 
 import exactpt
 from exactpt import AlgebraicNumber, Body, InputError, Scene, Simulation, first_contact
@@ -24,7 +24,7 @@ PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRul
 
 @pytest.fixture
 def registered():
-    added = [RANKED, FORMER, PLAIN]
+    added = [RANKED, PLAIN]
     catalogue.ENTRIES.extend(added)
     yield
     for entry in added:
@@ -160,11 +160,3 @@ def test_the_page_on_tilings_has_all_that_predicates_offer():
     named = set(re.findall(r"`(\w+)[`(]", table)) - attributes
 
     assert named == {n for n in vars(PredicatesAt) if not n.startswith("_")} - attributes
-
-
-@pytest.mark.usefixtures("registered")
-def test_rules_of_0_2_that_define_restore_are_still_called():
-    scene = generate("convex", 3)
-    with pytest.warns(DeprecationWarning, match="recanonicalize"):
-        list(Simulation(scene, tiling="former").run())
-    assert FormerRules.calls > 0
