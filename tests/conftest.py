@@ -1,8 +1,7 @@
 """Hypothesis profiles, limits, three options; CGAL's witness and Chromium as fixtures.
 
 ``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer. With
---quick it is ``quick``, and a test whose marker `long` does not except it has `BUDGET` seconds
-(QUICK_BUDGET in the environment, for slower machines).
+--quick it is ``quick``, and tests with the marker `long` are left out.
 """
 
 import gc
@@ -36,8 +35,6 @@ settings.register_profile(
 )
 
 MAX_BITS = 100_000
-BUDGET = float(os.environ.get("QUICK_BUDGET", "0.5"))  # seconds
-"""Seconds of processor time, children included, of a test in the quick tier."""
 
 FLAGS = (
     "--headless",
@@ -55,9 +52,7 @@ def pytest_addoption(parser):
     parser.addoption(
         "--exact-only", action="store_true", help="switch the float filters off in every test"
     )
-    parser.addoption(
-        "--quick", action="store_true", help="no long tests; the others within their budget"
-    )
+    parser.addoption("--quick", action="store_true", help="no long tests")
     parser.addoption(
         "--rotating",
         metavar="DATE",
@@ -75,21 +70,6 @@ def is_long(item):
     """Return True if the marker `long` names no cases, or this one."""
     marker = item.get_closest_marker("long")
     return marker is not None and (not marker.args or item.callspec.id in marker.args)
-
-
-def processor_seconds():
-    return sum(os.times()[:4])
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item):
-    """With --quick, fail a test that takes more processor time than `BUDGET`."""
-    before = processor_seconds()
-    result = yield
-    taken = processor_seconds() - before
-    if item.config.getoption("--quick") and taken > BUDGET:
-        pytest.fail(f"{taken:.2f} s of processor time: mark it long, or make it shorter")
-    return result
 
 
 @pytest.hookimpl(trylast=True)

@@ -1,8 +1,6 @@
 """Tiers of the tests, turns of the slow ones, and the worth of the quick ones."""
 
 import ast
-import os
-import re
 import subprocess
 import sys
 from collections import Counter
@@ -12,12 +10,11 @@ from random import Random
 
 import pytest
 from folding import every
-from rotation import DAYS, parts, seconds_of, turn_of
+from rotation import DAYS, parts, turn_of
 
 from fuzz.quick_worth import _changes, _exchange, mutants, planted
 
 ROOT = Path(__file__).parents[3]
-QUICK = ("unit", "api")
 
 
 def test_cases_in_a_loop_all_run_and_every_miss_is_reported():
@@ -41,70 +38,6 @@ def test_cases_in_a_loop_all_run_and_every_miss_is_reported():
         ["case: 4, 5"],
     ]
     assert [len(group.exceptions) for group in caught.value.exceptions] == [1, 2]
-
-
-def run(tmp_path, text, *options):
-    """Run a file of tests in this checkout's configuration."""
-    (tmp_path / "test_tried.py").write_text(text)
-    program = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c"]
-    program += [ROOT / "pyproject.toml", "--rootdir", ROOT, "--confcutdir", ROOT]
-    return subprocess.run(
-        [*program, "-p", "conftest", tmp_path / "test_tried.py", *options],
-        cwd=ROOT / "tests", env={**os.environ, "QUICK_BUDGET": "0.25"},
-        capture_output=True, text=True, check=False,
-    ).stdout  # fmt: skip
-
-
-def test_the_budget_of_the_quick_tier(tmp_path):
-    text = """
-import time, pytest
-
-def spend():
-    began = time.process_time()
-    while time.process_time() < began + 0.3:
-        pass
-
-def test_spends():
-    spend()
-
-@pytest.mark.long
-def test_spends_and_says_so():
-    spend()
-
-@pytest.mark.long("b")
-@pytest.mark.parametrize("case", ["a", "b"])
-def test_one_case(case):
-    assert case == "a"
-"""
-    quick = run(tmp_path, text, "--quick")
-
-    assert "1 failed, 1 passed, 2 deselected" in quick
-    assert re.search(r"0\.\d+ s of processor time: mark it long, or make it shorter", quick)
-    assert "1 failed, 3 passed" in run(tmp_path, text)
-
-
-def test_every_package_has_tests_in_the_quick_tier():
-    packages = {path.parent.name for path in (ROOT / "exactpt").glob("*/__init__.py")}
-    tested = {
-        folder.name
-        for tier in QUICK
-        for folder in (ROOT / "tests" / tier).iterdir()
-        if any(folder.glob("test_*.py"))
-    }
-
-    assert packages - tested == {"cgal", "workers"}  # these are about other processes: tests/system
-
-
-def test_tests_are_in_tiers_and_what_they_share_is_in_one_folder():
-    files = [path.relative_to(ROOT / "tests") for path in (ROOT / "tests").rglob("*.py")]
-    tests = [path for path in files if path.name.startswith("test_")]
-
-    assert {path.parts[0] for path in tests} == {"unit", "api", "system", "campaign"}
-    assert all(len(path.parts) == 3 for path in tests)
-    assert len({path.name for path in tests}) == len(tests)
-    assert {path.parts[0] for path in set(files) - set(tests)} == {
-        "conftest.py", "rotation.py", "helpers",
-    }  # fmt: skip
 
 
 # The slow tests take turns: each of them within any fortnight, in parts of about equal time
@@ -148,18 +81,6 @@ def test_a_part_has_at_most_one_test_more_than_its_share():
     sums = [sum(map(seconds.get, part)) for part in parts(seconds)]
 
     assert max(sums) <= sum(seconds.values()) / DAYS + max(seconds.values())
-
-
-def test_the_slow_tests_that_exist_take_at_most_five_minutes_on_two_cores_a_day():
-    """By the seconds that are written down; a test that is not in the list counts a minute."""
-    items = [Item(nodeid) for nodeid in collected()]
-    today = date(2026, 11, 22)
-
-    turns = [turn_of(items, day) for day in fortnight(today)]
-
-    assert len(items) > 400
-    assert {item.nodeid for turn in turns for item in turn} == {item.nodeid for item in items}
-    assert max(sum(seconds_of(item.nodeid) for item in turn) for turn in turns) < 2 * 300 - 60
 
 
 def test_pytest_selects_the_tests_whose_turn_it_is():
