@@ -19,7 +19,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -100,6 +100,13 @@ pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and
 	$(BIN)/python docs/draw_proof.py
 	$(BIN)/python docs/draw_gallery.py
 	$(BIN)/python docs/draw_examples.py
+
+accept: $(VENV)/developing ## write what is derived anew (tables, pictures, digests, event logs), show the difference
+	$(BIN)/python docs/make_tables.py
+	PYTHONPATH=. $(BIN)/python tests/system/testing/test_digests.py
+	PYTHONPATH=. $(BIN)/python tests/api/simulation/test_golden.py
+	$(MAKE) --no-print-directory pictures
+	git diff --stat
 
 docs: $(VENV)/developing ## the site, with tutorial, gallery, evidence and API, in site
 	NO_MKDOCS_2_WARNING=1 PYTHONPATH=. $(BIN)/python -m mkdocs build --quiet

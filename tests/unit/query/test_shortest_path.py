@@ -7,7 +7,6 @@ from random import Random
 
 import brute
 import pytest
-from test_space import check_taut, some_point, spaces
 from visibility_graph import VisibilityGraph, length_of
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, UnreachableError
@@ -15,6 +14,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, RINGS
 from exactpt.tiling.start import start_tiling
 from fuzz.transformations.run import scene_of
+from tests.unit.query.test_space import check_taut, some_point, spaces
 
 
 def space_of(*bodies, tiling="auto"):

@@ -3,10 +3,10 @@
 from random import Random
 
 import pytest
-from test_motion_changes import audit
 
 from exactpt import Body, InputError, Scene, Simulation
 from exactpt.kernel.numbers import QQ
+from tests.unit.simulation.test_motion_changes import audit
 
 
 def jar(rng, x, y, *, width=40, depth=100, steps=8, down=False):

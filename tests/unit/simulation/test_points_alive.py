@@ -5,12 +5,12 @@ from itertools import combinations
 from random import Random
 
 import pytest
-from test_motion_changes import audit, turn_back
-from test_save import check
 
 from exactpt import Body, Pieces, Scene, Simulation, Translation, onward
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.generate import POINTS, generate
+from tests.unit.simulation.test_motion_changes import audit, turn_back
+from tests.unit.simulation.test_save import check
 
 
 def swarm(rng, count, *, size=1000, speed=40, end=10**4):

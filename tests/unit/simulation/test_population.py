@@ -4,7 +4,6 @@ import json
 from random import Random
 
 import pytest
-from test_motion_changes import at, audit, crowd, some_plan, turn_back
 
 from exactpt import AuditError, Body, InputError, Rigid, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
@@ -12,6 +11,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.region import Region
 from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star
+from tests.unit.simulation.test_motion_changes import at, audit, crowd, some_plan, turn_back
 
 LOCAL = ["greedy", "lazy", "mixed"]
 

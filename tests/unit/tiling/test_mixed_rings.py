@@ -5,7 +5,6 @@ from random import Random
 import brute_rings
 import pytest
 from folding import every
-from test_mixed import free, shuffled
 
 from exactpt import Body, Scene, Translation
 from exactpt.certificates.at_time import PredicatesAt
@@ -21,6 +20,7 @@ from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 from exactpt.tiling.start import start_tiling
+from tests.unit.tiling.test_mixed import free, shuffled
 
 COUNTS = [6, pytest.param(100, marks=pytest.mark.slow)]
 
