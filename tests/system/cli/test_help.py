@@ -35,7 +35,7 @@ def examples(command):
     return [re.split(r" (?:&&|\|\|?|#)", line)[0] for line in lines]
 
 
-MARKS = {"check": pytest.mark.cgal, "bench": pytest.mark.slow}
+MARKS = {"check": pytest.mark.cgal}
 MINUTES = ["exactpt questions --set --jobs 4", "exactpt draw scene.json -o film.gif"]
 COMMANDS = {"": cli, **all_commands()}
 EXAMPLES = [
@@ -43,10 +43,6 @@ EXAMPLES = [
     for name, command in COMMANDS.items()
     for line in examples(command)
 ]
-
-
-def test_the_examples_that_take_long_are_among_them():
-    assert {line for name in COMMANDS for line in examples(COMMANDS[name])} >= set(MINUTES)
 
 
 @every("name", COMMANDS)
