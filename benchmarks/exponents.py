@@ -175,7 +175,7 @@ def _distance(n: int) -> Ask:
 
 
 def _within(scene: Scene) -> object:
-    return first_within(scene, distance="1/100", norm="euclidean")
+    return first_within(scene, distance="1/100")
 
 
 def _clearance_translating(n: int) -> Ask:

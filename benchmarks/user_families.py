@@ -104,7 +104,7 @@ def _discs(n: int) -> Ask:
     for i in range(n):
         drift = Translation(*([0, random.uniform(-0.1, 0.1)] for _ in "xy"))
         bodies.append(Body(f"d{i}", [(i % side, i // side)], drift, radius=0.1 + 0.2 * (i % 2)))
-    return lambda: first_within(Scene(bodies, time=(0, 3)), distance="1/100", norm="euclidean")
+    return lambda: first_within(Scene(bodies, time=(0, 3)), distance="1/100")
 
 
 def _combined(n: int) -> Ask:

@@ -52,7 +52,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 
 def _within(scene: Scene, d: int) -> Approach | None:
-    return first_within(scene, distance=d, norm="euclidean")
+    return first_within(scene, distance=d)
 
 
 def _row(

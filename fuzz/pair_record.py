@@ -92,18 +92,9 @@ def pair_answers(scene: Scene) -> dict[str, Callable[[], object]]:
             first_contact(scene, after_start=True),
             first_contact(scene, after_start=True, ignoring=[names[:2]]),
         ],
-        "within": lambda: [
-            first_within(scene, distance=d, norm=norm)
-            for d in (0, "1/3", 2)
-            for norm in ("euclidean", "max", "x", "y")
-        ],
-        "two": lambda: [
-            first_within(scene, *pair, d, norm=norm)
-            for pair in pairs
-            for d in (0, "1/3", 2)
-            for norm in ("euclidean", "max", "x", "y")
-        ],
-        "root": lambda: first_within(scene, distance_squared=2, norm="euclidean"),
+        "within": lambda: [first_within(scene, distance=d) for d in (0, "1/3", 2)],
+        "two": lambda: [first_within(scene, *pair, d) for pair in pairs for d in (0, "1/3", 2)],
+        "root": lambda: first_within(scene, distance_squared=2),
         "contacts": lambda: contacts(scene),
         "intervals": lambda: [contact_intervals(scene, *pair) for pair in pairs],
         "distance": lambda: [distance(scene, *pair, t) for pair in pairs for t in (scene.start, 1)],

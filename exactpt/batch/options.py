@@ -66,7 +66,7 @@ class Options:
                 "methods and choices of bodies are supported only for the first contact"
             )
         if self.distance is not None:
-            first_within(NOTHING, distance=self.distance, norm="euclidean")
+            first_within(NOTHING, distance=self.distance)
         first_contact(  # refuses options that exclude each other
             NOTHING,
             method=self.method,
@@ -118,7 +118,7 @@ class Options:
         if self.every:
             return {"intervals": [interval.to_json() for interval in contacts(scene)]}
         if self.distance is not None:
-            near = first_within(scene, distance=self.distance, norm="euclidean")
+            near = first_within(scene, distance=self.distance)
             if near is None:
                 return {"approach": None}
             pairs = [list(names) for names in near.pairs]

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
-from itertools import combinations, islice, pairwise, takewhile
-from typing import Final, Literal, TypeAlias, final, overload
+from typing import Final, TypeAlias, final, overload
 
 import numpy as np
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
+from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt, rational, show
+from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.candidate_pairs import candidate_pairs
+from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.piece_pairs import two_bodies
 from exactpt.pairs.pieces import ContactDistance, MotionPiece
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.search import first_among_pieces, scene_pieces_if_linear
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
-from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
@@ -55,7 +53,6 @@ def first_within(
     b: str,
     distance: Rational | None = None,
     *,
-    norm: Norm | None = None,
     distance_squared: Rational | None = None,
 ) -> AlgebraicNumber | None: ...
 
@@ -65,7 +62,6 @@ def first_within(
     scene: Scene,
     *,
     distance: Rational | None = None,
-    norm: Norm | None = None,
     distance_squared: Rational | None = None,
     between: Iterable[Sequence[str]] | None = None,
     ignoring: Iterable[Collection[str]] = (),
@@ -78,7 +74,6 @@ def first_within(
     b: str | None = None,
     distance: Rational | None = None,
     *,
-    norm: Norm | None = None,
     distance_squared: Rational | None = None,
     between: Iterable[Sequence[str]] | None = None,
     ignoring: Iterable[Collection[str]] = (),
@@ -88,9 +83,9 @@ def first_within(
     >>> from exactpt import Body, Scene, Translation
     >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
     >>> scene = Scene([ball, Body("wall", [(9, -5), (9, 5)])], time=(0, 10))
-    >>> first_within(scene, "ball", "wall", 1, norm="euclidean")
+    >>> first_within(scene, "ball", "wall", 1)
     AlgebraicNumber('7/2')
-    >>> first_within(scene, distance=1, norm="euclidean")
+    >>> first_within(scene, distance=1)
     Approach(time=AlgebraicNumber('7/2'), pairs=(('ball', 'wall'),))
 
     A `Spin` or a `PosePath` counts as its pieces: docs/howto/motions.md has the bounds for the
@@ -100,13 +95,10 @@ def first_within(
         scene: the bodies and the time span.
         a: the name of a body.
         b: the name of another body; without names, any two bodies of the scene.
-        distance: a number >= 0; 0 means the first contact.
-        norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
-            between the intervals that the bodies, with all their parts, span on that axis. To
-            leave it out for two bodies means "max", and is deprecated.
+        distance: a Euclidean distance >= 0; 0 means the first contact.
         distance_squared: the square of the distance, instead of it, so that the square root of
-            a rational number can be given; for the Euclidean norm. (Of rounded bodies it must
-            be the square of a rational number.)
+            a rational number can be given. (Of bodies with radii it must be the square of a
+            rational number.)
         between: pairs of names, for a question without names; other pairs do not count.
         ignoring: groups of body names, for a question without names; two bodies of one group
             do not count.
@@ -115,116 +107,105 @@ def first_within(
         The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
 
     Raises:
-        InputError: if a body or the norm does not exist, the distance is negative, or a body is
-            rounded and the norm is "max".
+        InputError: if a body does not exist, or the distance is missing or negative, or its
+            square is not that of a rational number although a body has a radius.
     """
     a_scene(scene)
     if (a is None) != (b is None):
         raise InputError(
             "two names of bodies are given, or none for all bodies; the distance by its name"
         )
-    if a is not None and b is not None and norm is None:
-        warnings.warn(
-            'first_within without a norm means norm="max"; name the norm',
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        norm = "max"
-    norm, d = asked_distance(distance, distance_squared, norm)
+    squared = _square_of(distance, distance_squared)
     selection = Selection(scene, between, ignoring)
     if a is not None and b is not None:
         if not selection.is_all:
             raise InputError("between and ignoring are not supported for two named bodies")
         first, second = two_bodies(scene, a, b)
-        return time_within_of_two(first, second, scene._start, scene._end, d, norm)
+        return time_within_of_two(first, second, scene._start, scene._end, squared)
+    largest_radius = max((body._radius for body in scene.bodies), default=QQ(0))
+    square_between_cores(squared, largest_radius)  # refuses a square without a rational root
     found: Near | None = None
-    of_cores(d, max((body._radius for body in scene.bodies), default=QQ(0)), norm)  # or refuses it
     if len(scene.bodies) > 1:
-        found = _first(scene, d, norm) if selection.is_all else _selected(scene, selection, d, norm)
+        found = _first(scene, squared) if selection.is_all else _selected(scene, selection, squared)
     if found is None:
         return None
     names = {(scene.bodies[i].name, scene.bodies[j].name) for i, j in found[1]}
     return Approach(found[0], tuple(sorted(names)))
 
 
-def _first(scene: Scene, d: QQ, norm: Norm) -> Near | None:
-    """Return the first approach of any two bodies, of which there are two."""
-    if norm == "euclidean":
-        return _euclidean(scene, d)
-    if norm == "max":
-        return _by_pairs(scene, candidate_pairs(scene, d), d, norm)
-    return _on_axis(scene, d, norm)
+def _square_of(distance: Rational | None, squared: Rational | None) -> QQ:
+    """Return the square of the distance of a caller, who gives either of them.
 
-
-def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Near | None:
-    """Return the first approach of the pairs that count."""
-    if norm in ("x", "y"):  # a gap on one axis bounds no box
-        return _by_pairs(scene, selection.all_pairs(), d, norm)
-    reach = root_above(d) if norm == "euclidean" else d
-    return _by_pairs(scene, selection.of(candidate_pairs(scene, reach)), d, norm)
-
-
-def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Near | None:
-    """Return the first approach along an axis.
-
-    If all gaps between projections are more than d at the start, the order of the projections
-    stays the same until one is d: a first approach is one of neighbours. Another pair can be
-    within d at that time only if d is 0 and points are between them.
+    Raises:
+        InputError: if not exactly one of them is given, or it is negative.
     """
-    axis = "xy".index(norm)
-    spans: list[tuple[QQ, QQ, int]] = []
-    for i, body in enumerate(scene.bodies):
-        places = [point[axis] for point in body._at(scene._start)]
-        spans.append((min(places) - body._radius, max(places) + body._radius, i))
-    spans.sort()
-    near: list[tuple[int, int]] = []
-    for k, (_, high, i) in enumerate(spans):
-        beside = takewhile(partial(_starts_by, high + d), islice(spans, k + 1, None))
-        near += [(min(i, j), max(i, j)) for _, _, j in beside]
-    if near:
-        return AlgebraicNumber(scene._start), near
-    order = [i for _, _, i in spans]
-    found = _by_pairs(scene, pairwise(order), d, norm)
-    if found is None or d:
-        return found
-    met = sorted({i for pair in found[1] for i in pair})
-    return _by_pairs(scene, combinations(met, 2), d, norm)
+    given = squared if distance is None else distance
+    if given is None or (distance is not None and squared is not None):
+        raise InputError("expected either a distance or its square")
+    number = rational(given)
+    if number < 0:
+        raise InputError(f"a distance is not negative: {show(number)}")
+    return number if distance is None else number * number
 
 
-def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
-    return span[0] <= limit
+def square_between_cores(squared: QQ, radii: QQ) -> QQ:
+    """Return the squared distance of two cores at which the bodies are at a distance.
+
+    Args:
+        squared: the square of the distance of the bodies.
+        radii: the sum of their radii.
+
+    Raises:
+        InputError: if the bodies have radii and the distance is irrational.
+    """
+    if not radii:
+        return squared
+    distance = exact_square_root(squared)
+    if distance is None:
+        raise InputError(
+            f"distance_squared={show(squared)}: of rounded bodies it must be the square of "
+            "a rational"
+        )
+    return (distance + radii) ** 2
 
 
-def _by_pairs(
-    scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
-) -> Near | None:
-    """Return the first approach of some pairs: each is searched up to the best time so far."""
+def _selected(scene: Scene, selection: Selection, squared: QQ) -> Near | None:
+    """Return the first approach of the pairs that count: each is searched up to the best time."""
     best: Earliest[tuple[int, int]] = Earliest()
-    for i, j in map(sorted, candidates):
-        two, until = (scene.bodies[i], scene.bodies[j]), best.until(scene._end)
-        time = time_within_of_two(*two, scene._start, until, d, norm)
+    for i, j in map(sorted, selection.of(candidate_pairs(scene, root_above(squared)))):
+        first, second = scene.bodies[i], scene.bodies[j]
+        until = best.until(scene._end)
+        time = time_within_of_two(first, second, scene._start, until, squared)
         if time is not None:
             best.add(time, [(i, j)])
     return None if best.number is None else (best.number, best.found)
 
 
-def time_within_of_two(
-    a: Body, b: Body, start: QQ, end: QQ, d: QQ, norm: Norm
-) -> AlgebraicNumber | None:
-    """Return the first time in [start, end] at which two bodies are within d."""
-    of_cores(d, a._radius + b._radius, norm)  # or refuses it
-    if norm != "euclidean" or start == end:
-        return time_within(a, b, start, end, d, norm)
-    found = _euclidean(scene_of((a, b), start, end), d)  # filtered by doubles
+def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> AlgebraicNumber | None:
+    """Return the first time in [start, end] at which two bodies are within a distance.
+
+    Args:
+        a: a body.
+        b: another body.
+        start: the first time.
+        end: the last time; it may be the first one.
+        squared: the square of the distance.
+    """
+    squared_of_cores = square_between_cores(squared, a._radius + b._radius)
+    if start == end:
+        is_within = squared_distance(a, b, start) <= squared_of_cores
+        return AlgebraicNumber(start) if is_within else None
+    found = _first(scene_of((a, b), start, end), squared)
     return None if found is None else found[0]
 
 
-def _euclidean(scene: Scene, squared: QQ) -> Near | None:
+def _first(scene: Scene, squared: QQ) -> Near | None:
+    """Return the first approach of any two bodies of a scene that has at least two."""
     most = root_above(squared)
     radii = [body._radius for body in scene.bodies]
 
     def limit(i: int, j: int) -> QQ:
-        return of_cores(squared, radii[i] + radii[j], "euclidean")
+        return square_between_cores(squared, radii[i] + radii[j])
 
     def distance(a: MotionPiece, b: MotionPiece) -> ContactDistance | None:
         root = most + radii[a.body] + radii[b.body]

@@ -141,7 +141,7 @@ class Surroundings:
     def _first_within(self, other: str, d: QQ) -> AlgebraicNumber | None:
         """Return the first time at which another body is within a distance."""
         scene, first = self._scene, self._scene.body(self.name)
-        return time_within(first, scene.body(other), scene._start, scene._end, d * d, "euclidean")
+        return time_within(first, scene.body(other), scene._start, scene._end, d * d)
 
     def _near(self, reach: QQ) -> list[str]:
         """Return the names of the other bodies that may come within a distance."""

@@ -61,7 +61,7 @@ def certify(
     Args:
         scene: the scene.
         distance: a number >= 0; if it is not 0, the result is the first time at which two bodies
-            are within this distance, by the Euclidean norm. So a distance less than the least
+            are within this distance. So a distance less than the least
             one in the time span has a certificate that all stay farther apart.
         at: a time, at which alone bodies are shown to be farther apart than the distance.
         between: pairs of names; other pairs do not count.
@@ -97,9 +97,7 @@ def certify(
         part = scene if since is None else scene.since(since)
         span = fraction(part._start), span[1]
         if d:
-            approach = first_within(
-                part, distance=distance, norm="euclidean", between=named, ignoring=groups
-            )
+            approach = first_within(part, distance=distance, between=named, ignoring=groups)
         else:
             contact = first_contact(part, between=named, ignoring=groups)
     file = scene_bytes(scene)

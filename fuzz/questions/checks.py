@@ -36,7 +36,6 @@ from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.all_pairs import touches_at
 from fuzz.questions.chosen import wrong_choice
-from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
@@ -48,7 +47,6 @@ from fuzz.small_scope.scope import planned, sizes
 from fuzz.soak import Soak
 from fuzz.statics import audit_certificates
 
-OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
 LIVING: Final = ("greedy", "lazy", "mixed")
 ACTIONS: Final = 40
 HOSTILE: Final = 50
@@ -89,7 +87,7 @@ def _distance(random: Random) -> Checked:
     scene = distant_scene(random)
     gap = clearance(scene, "a", "b")
     squared = _asked(random, scene, gap)
-    time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)
+    time = first_within(scene, "a", "b", distance_squared=squared)
     a, b = scene.bodies
     expected = reference.first_within(a, b, scene._start, scene._end, squared)
     fault = None
@@ -168,7 +166,7 @@ def _approach(random: Random) -> Checked:
     """first_within of any two bodies."""
     scene = crowded_scene(random)
     squared = QQ(random.choice([0, 0, 1, 2]), random.choice([1, 4, 9]))
-    found = first_within(scene, norm="euclidean", distance_squared=squared)
+    found = first_within(scene, distance_squared=squared)
     times = []
     for a, b in combinations(scene.bodies, 2):
         time = reference.first_within(a, b, scene._start, scene._end, squared)
@@ -182,22 +180,6 @@ def _approach(random: Random) -> Checked:
     kind += f", {len(found.pairs)} pairs" if found else ""
     fault = None if found == expected else f"within {squared}: {found}, not {expected}"
     return Checked(scene, kind, fault)
-
-
-def _norms(random: Random) -> Checked:
-    """first_within in the other norms, of two bodies and of all."""
-    scene = distant_scene(random)
-    a, b = scene.bodies
-    d = QQ(random.choice([0, 1, 1, 2, 3]), random.choice([1, 1, 2, 3]))
-    norm = random.choice(OTHERS)
-    time = first_within(scene, "a", "b", d, norm=norm)
-    expected = first_within_norm(a, b, scene._start, scene._end, d, norm)
-    every = first_within(scene, distance=d, norm=norm)
-    kind = "never" if time is None else "at the start" if time == scene.start else "later"
-    fault = None
-    if time != expected or (every and every.time) != expected:
-        fault = f"within {d}, {norm}: {time}, {every}, not {expected}"
-    return Checked(scene, f"{norm}, {kind}", fault)
 
 
 def _intervals(random: Random) -> Checked:
@@ -262,7 +244,7 @@ def _cgal(random: Random) -> Checked:
     scene = distant_scene(random)
     gap = clearance(scene, "a", "b")
     squared = _asked(random, scene, gap)
-    time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)
+    time = first_within(scene, "a", "b", distance_squared=squared)
     signs, fault = by_cgal.compare(scene, gap, squared, time)
     return Checked(scene, "never" if time is None else "within", fault, signs)
 
@@ -379,7 +361,6 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "chosen": _chosen,
     "restored": _restored,
     "approach": _approach,
-    "norms": _norms,
     "intervals": _intervals,
     "after-start": _after_start,
     "rounded": _rounded,

@@ -52,7 +52,7 @@ def wrong_answer(random: Random, scene: Scene) -> str | None:
     if found != expected:
         return f"intervals {found}, not {expected}"
     d = QQ(random.choice([0, 1, 2]), random.choice([1, 3]))
-    time = first_within(scene, a.name, b.name, d, norm="euclidean")
+    time = first_within(scene, a.name, b.name, d)
     first = reference.first_within(a, b, start, end, (d + reach) ** 2)
     if time != first:
         return f"within {d}: {time}, not {first}"

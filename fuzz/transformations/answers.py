@@ -47,7 +47,6 @@ class Case:
         groups: two common names.
         t: a time.
         d: a distance.
-        norm: "max", "x" or "y".
         points: three points.
         tiling: the name of a tiling.
     """
@@ -55,7 +54,6 @@ class Case:
     groups: tuple[str, str]
     t: QQ
     d: QQ
-    norm: str
     points: tuple[Point, Point, Point]
     tiling: str
 
@@ -281,19 +279,7 @@ def _clearance(side: Side, case: Case) -> Answer:
 
 
 def _within(side: Side, case: Case) -> Answer:
-    return _first(
-        exactpt.first_within(side.scene, a, b, case.d, norm="euclidean")
-        for a, b in _pairs(side, case)
-    )
-
-
-def _within_norm(side: Side, case: Case) -> Answer:
-    if case.norm != "max" and _has_groups(side):
-        raise NotAskedError  # on an axis, all parts of a body span one interval
-    return _first(
-        exactpt.first_within(side.scene, a, b, case.d, norm=case.norm)  # type: ignore[call-overload]
-        for a, b in _pairs(side, case)
-    )
+    return _first(exactpt.first_within(side.scene, a, b, case.d) for a, b in _pairs(side, case))
 
 
 def _first(times: Iterable[AlgebraicNumber | None]) -> AlgebraicNumber | None:
@@ -303,7 +289,7 @@ def _first(times: Iterable[AlgebraicNumber | None]) -> AlgebraicNumber | None:
 def _approach(side: Side, case: Case) -> Answer:
     if _has_groups(side):
         _check_apart(side, case.d)
-    found = exactpt.first_within(side.scene, distance=case.d, norm="euclidean")
+    found = exactpt.first_within(side.scene, distance=case.d)
     if found is None:
         return None
     return found.time, {frozenset(side.groups[name] for name in pair) for pair in found.pairs}
@@ -513,9 +499,6 @@ QUESTIONS: Final[Mapping[str, Question]] = {
         ("clearance",), _clearance, "the least minimum of the parts, its time; the values"
     ),
     "first within, two bodies": Question(("first_within",), _within, "the first time of the parts"),
-    "first within, other norms": Question(
-        ("first_within",), _within_norm, "the first time of the parts, in the maximum norm alone"
-    ),
     "first within, all": Question(
         ("first_within",), _approach, "the time and the pairs, if parts are farther apart"
     ),

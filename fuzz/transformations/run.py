@@ -122,7 +122,6 @@ def _case(random: Random, image: Image) -> Case:
         groups=(two[0], two[1]),
         t=scene._start + span * random.randint(0, 8) / 8,
         d=QQ(random.choice([0, 1, 1, 2]), random.choice([1, 2, 3])),
-        norm=random.choice(["max", "x", "y"]),
         points=(p, q, r),
         tiling=random.choice(TILINGS),
     )

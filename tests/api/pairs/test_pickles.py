@@ -64,7 +64,7 @@ def public_functions():
 ANSWERS = {
     "contact": lambda: first_contact(SCENE),
     "pair": lambda: first_contact(SCENE).pairs[0],
-    "approach": lambda: first_within(SCENE, distance=1, norm="euclidean"),
+    "approach": lambda: first_within(SCENE, distance=1),
     "interval": lambda: contacts(SCENE)[0],
     "distance": lambda: distance(SCENE, "ball", "wall", 0),
     "clearance": lambda: clearance(SCENE, "ball", "wall"),

@@ -199,8 +199,8 @@ def test_positions_at_an_irrational_time_are_decimals():
 ASK = {
     "first_contact": exactpt.first_contact,
     "first_contact_enclosed": exactpt.first_contact_enclosed,
-    "first_within": lambda scene: exactpt.first_within(scene, distance=1, norm="x"),
-    "first_within of two": lambda scene: exactpt.first_within(scene, "a", "b", 1, norm="x"),
+    "first_within": lambda scene: exactpt.first_within(scene, distance=1),
+    "first_within of two": lambda scene: exactpt.first_within(scene, "a", "b", 1),
     "clearance": lambda scene: exactpt.clearance(scene, "a", "b"),
     "distance": lambda scene: exactpt.distance(scene, "a", "b", 0),
     "contact_intervals": lambda scene: exactpt.contact_intervals(scene, "a", "b"),

@@ -60,7 +60,6 @@ def never(*_, **__):
     [
         ("distance", "first_within", never),
         ("approach", "first_within", never),
-        ("norms", "first_within", never),
         ("intervals", "contact_intervals", lambda *_: []),
         ("after-start", "first_contact", never),
         ("after-start", "first_new_contact", never),
@@ -96,7 +95,7 @@ def test_a_wrong_minimum_is_found(gap):
 @pytest.mark.cgal
 def test_cgal_finds_a_wrong_minimum_and_a_wrong_time(gap):
     scene = distant_scene(Random("1"))
-    time = checks.first_within(scene, "a", "b", 1, norm="euclidean")
+    time = checks.first_within(scene, "a", "b", 1)
     assert by_cgal.compare(scene, gap, QQ(1), time)[1] is None
     other = AlgebraicNumber(QQ(1, 7))
     assert by_cgal.compare(scene, gap, QQ(0), other)[1] is not None

@@ -72,7 +72,7 @@ def test_bug_no_warning_at_the_largest_doubles(radius):
     for asked in (scene, one_by_one):
         assert first_contact(asked).time == arrival
         assert first_contact(asked, exact_only=True).time == arrival
-        assert first_within(asked, distance=LARGEST, norm="euclidean").time == 1
+        assert first_within(asked, distance=LARGEST).time == 1
         assert [interval.start for interval in contacts(asked)] == [arrival]
     found = first_contacts(
         corners, offsets, [(0, 1)] * 2, velocities=speeds, radii=radii, time=[time, (0.0, LARGEST)]

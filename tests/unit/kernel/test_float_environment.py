@@ -82,7 +82,7 @@ def _questions():
     yield "exact", lambda: exactpt.first_contact(scene, method="kinetic", exact_only=True)
     yield "selected", lambda: exactpt.first_contact(scene, after_start=True)
     yield "enclosed", lambda: exactpt.first_contact_enclosed(scene)
-    yield "within", lambda: exactpt.first_within(scene, distance=1, norm="max")
+    yield "within", lambda: exactpt.first_within(scene, distance=1)
     yield "contacts", lambda: exactpt.contacts(scene)
     yield "intervals", lambda: exactpt.contact_intervals(scene, "ball", "wall")
     yield "clearance", lambda: exactpt.clearance(scene, "ball", "wall")
@@ -232,7 +232,7 @@ def test_bug_errstate_of_numpy_does_not_leak(handling):
                 exactpt.Simulation(scene, max_events=20)
             if scene.vertex_count < 20 and len(scene.bodies) > 1:
                 exactpt.contacts(scene)
-                exactpt.first_within(scene, distance=Fraction(1, 7), norm="euclidean")
+                exactpt.first_within(scene, distance=Fraction(1, 7))
         for scale in (1e-307, 1.0, 1e307):
             corners = np.concatenate([SQUARE, SQUARE + 5]) * scale
             found = arrays.first_contacts(

@@ -180,8 +180,7 @@ def test_a_disc_and_a_pill():
     )
     assert gap.features == (((0, None), (None, 0)),)
     assert float(distance(SCENE, "disc", "pill", at=9)) == 0
-    assert first_within(SCENE, "disc", "pill", 2, norm="euclidean") == Fraction(11, 2)
-    assert first_within(SCENE, "disc", "pill", 2, norm="x") == Fraction(11, 2)
+    assert first_within(SCENE, "disc", "pill", 2) == Fraction(11, 2)
     (meeting,) = contact_intervals(SCENE, "disc", "pill")
     assert (meeting.start, meeting.end) == (Fraction(15, 2), Fraction(21, 2))
     assert contacts(SCENE) == [meeting]
@@ -215,11 +214,9 @@ def test_where_discs_overlap_the_clearance_is_zero():
 
 
 def test_what_rounded_bodies_are_not_asked():
-    with pytest.raises(InputError, match='norm "max" is for bodies without radius'):
-        first_within(SCENE, "disc", "pill", 1, norm="max")
     with pytest.raises(InputError, match="distance_squared=2: of rounded bodies"):
-        first_within(SCENE, "disc", "pill", norm="euclidean", distance_squared=2)
-    assert first_within(SCENE, "disc", "pill", norm="euclidean", distance_squared=4) == 5.5
+        first_within(SCENE, "disc", "pill", distance_squared=2)
+    assert first_within(SCENE, "disc", "pill", distance_squared=4) == 5.5
 
 
 def test_a_touch_in_passing_is_one_moment():

@@ -23,7 +23,7 @@ BOX = Body("box", [(0, 0), (5, 0), (5, 9), (0, 9)])
 
 def within(a, b, d=None, time=(0, 20), **options):
     scene = Scene([a, b], time)
-    return first_within(scene, a.name, b.name, d, norm="euclidean", **options)
+    return first_within(scene, a.name, b.name, d, **options)
 
 
 def test_a_point_that_comes_to_a_corner():
@@ -112,7 +112,7 @@ def test_tiny_scenes_against_the_definition(count):
         scene = pair_scene(random)
         a, b = scene.bodies
         squared = QQ(random.choice([0, 1, 2, 4, 5]), random.choice([1, 1, 2, 9]))
-        time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)
+        time = first_within(scene, "a", "b", distance_squared=squared)
         assert time == reference.first_within(a, b, scene._start, scene._end, squared)
         found += time is not None and time > 0
 
@@ -162,7 +162,7 @@ def test_bodies_far_from_each_other_have_no_exact_place_at_the_start(monkeypatch
     placed, at = [], Body._at
     monkeypatch.setattr(Body, "_at", lambda body, time: placed.append(body) or at(body, time))
 
-    found = first_within(Scene(bodies, (0, 10)), distance=6, norm="euclidean")
+    found = first_within(Scene(bodies, (0, 10)), distance=6)
 
     assert found is not None
     assert not placed
@@ -178,6 +178,6 @@ def test_within_a_distance_at_the_start_among_few_and_many(count, radius):
     scene = Scene(bodies, (3, 9))
 
     for d, time in ((2, 3), (1, 4), (Fraction(1, 2) + radius, Fraction(9, 2) - radius)):
-        found = first_within(scene, distance=d - 2 * radius, norm="euclidean")
+        found = first_within(scene, distance=d - 2 * radius)
         assert found.time == time
         assert len(found.pairs) == count - 1

@@ -27,7 +27,7 @@ def crowd(offset, seed, radius):
 
 def answer(scene):
     contact = first_contact(scene)
-    near = first_within(scene, distance=Fraction(1, 8), norm="euclidean")
+    near = first_within(scene, distance=Fraction(1, 8))
     features = [(p.body, p.vertex, p.other, p.edge, p.other_vertex) for p in contact.pairs]
     return contact.time, features, near
 

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.shapes import crowd
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import candidate_pairs, pieces
+from exactpt.pairs import pieces
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.start import near_at_start, within_at_start
@@ -38,7 +38,7 @@ def by_pairs(scene, d):
     """The least of all pairs."""
     found = []
     for (i, a), (j, b) in combinations(enumerate(scene.bodies), 2):
-        time = first_within(scene, a.name, b.name, d, norm="euclidean")
+        time = first_within(scene, a.name, b.name, d)
         if time is not None:
             found.append((time, (i, j)))
     if not found:
@@ -100,31 +100,19 @@ def test_all_bodies_against_the_definition(count):
     for _ in range(count):
         scene = touching_scene(random)
         squared = QQ(random.choice([0, 0, 1, 2]), random.choice([1, 4, 9]))
-        found = first_within(scene, distance_squared=squared, norm="euclidean")
+        found = first_within(scene, distance_squared=squared)
         assert found == defined(scene, squared)
         seen.add(found and (found.time == scene.start, len(found.pairs) > 1))
     assert {(True, True), (True, False), (False, False)} <= seen
 
 
-@pytest.mark.parametrize("family", sorted(FAMILIES))
-def test_pairs_that_are_passed_over_are_farther_apart(family, monkeypatch):
-    """In the maximum norm, pairs are passed over by boxes; in small scenes too, here."""
-    scene = small(family, 1)
-    if scene is not None:
-        extent = max(abs(c) for body in scene.bodies for p in body.at(scene.start) for c in p)
-        every = first_within(scene, distance=extent / 20, norm="max")
-        monkeypatch.setattr(candidate_pairs, "FEW", 0)
-        assert first_within(scene, distance=extent / 20, norm="max") == every
-
-
 @pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
-def test_every_norm_is_the_least_of_all_pairs(norm, seed):
+def test_first_approach_is_the_least_of_all_pairs(seed):
     scene = crowd(6, Random(seed), radius=300, end=4)
-    found = first_within(scene, distance=100, norm=norm)
+    found = first_within(scene, distance=100)
 
     every = [
-        (first_within(scene, a.name, b.name, 100, norm=norm), (a.name, b.name))
+        (first_within(scene, a.name, b.name, 100), (a.name, b.name))
         for a, b in combinations(scene.bodies, 2)
     ]
     least = min((time for time, _ in every if time is not None), default=None)
@@ -141,11 +129,11 @@ def test_first_approach_with_and_without_boxes_of_pieces(few, monkeypatch):
     both = Scene([*scene.bodies, *far, *close], (0, 4))
     monkeypatch.setattr(pieces, "FEW", few)
 
-    found = first_within(both, distance=10, norm="euclidean")
+    found = first_within(both, distance=10)
 
     assert found.time == QQ(1, 10)
     assert found.pairs == (("far0", "near0"), ("far1", "near1"), ("far2", "near2"))
-    alone = first_within(scene, distance=10, norm="euclidean")
+    alone = first_within(scene, distance=10)
     assert (alone.time, alone.pairs) == named(scene, search(scene, QQ(10)))
 
 
@@ -156,15 +144,10 @@ def named(scene, found):
 @pytest.mark.parametrize(
     "options, words",
     [
-        ({"distance": 1}, "a norm has to be named: euclidean, max, x, y"),
-        ({"distance": 1, "norm": "taxi"}, "no norm 'taxi'"),
-        ({"norm": "max"}, "either a distance or its square"),
-        ({"distance_squared": 2, "norm": "max"}, "for the Euclidean norm, not for 'max'"),
-        ({"distance": -1, "norm": "euclidean"}, "a distance is not negative: -1"),
-        (
-            {"a": "p", "distance": 1, "norm": "max"},
-            "two names of bodies are given, or none for all bodies; the dist",
-        ),
+        ({}, "either a distance or its square"),
+        ({"distance": 2, "distance_squared": 4}, "either a distance or its square"),
+        ({"distance": -1}, "a distance is not negative: -1"),
+        ({"a": "p", "distance": 1}, "two names of bodies are given, or none for all bodies"),
     ],
 )
 def test_wrong_questions(options, words):
@@ -173,27 +156,16 @@ def test_wrong_questions(options, words):
         first_within(scene, **options)
 
 
-def test_points_that_meet_in_one_coordinate_at_one_time():
-    """Along an axis only neighbours are searched: with d = 0 there may be points between."""
-    points = [Body(f"p{i}", [(i, 3 * i * i)], Translation([0, 4 - i])) for i in range(3)]
-    bodies = [*points, Body("q", [(9, 0), (10, 0)], Translation([0, -5])), Body("r", [(20, 0)])]
-    found = first_within(Scene(bodies, (0, 9)), distance=0, norm="x")
-
-    assert found == Approach(found.time, tuple(combinations(["p0", "p1", "p2", "q"], 2)))
-    assert found.time == 1
-
-
 @pytest.mark.parametrize("d", ["1e-400", "1e-30", "1e30", "1e400"])
-@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
-def test_distances_beyond_the_range_of_doubles(norm, d):
+def test_distances_beyond_the_range_of_doubles(d):
     """Few bodies and many: the searches with boxes are asked with all of them."""
     for count in (2, 14):
         bodies = [Body(f"p{i:2}", [(10 * i, 10 * i)], Translation([0, -i])) for i in range(count)]
         scene = Scene(bodies, (0, 20))
-        found = first_within(scene, distance=d, norm=norm)
+        found = first_within(scene, distance=d)
 
         every = {
-            (a.name, b.name): first_within(scene, a.name, b.name, d, norm=norm)
+            (a.name, b.name): first_within(scene, a.name, b.name, d)
             for a, b in combinations(bodies, 2)
         }
         least = min((time for time in every.values() if time is not None), default=None)
@@ -226,10 +198,8 @@ def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
 
 def test_bodies_that_stay_apart():
     scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
-    for norm in ("euclidean", "max", "x"):
-        assert first_within(scene, distance=4, norm=norm) is None
-        assert first_within(Scene([]), distance=4, norm=norm) is None
-    assert first_within(scene, distance=4, norm="y").pairs == (("p", "q"),)
+    assert first_within(scene, distance=4) is None
+    assert first_within(Scene([]), distance=4) is None
 
 
 @pytest.mark.plain
@@ -271,10 +241,10 @@ def test_two_bodies_of_many_vertices_need_few_exact_decisions(monkeypatch):
         [Body("a", ball, Translation([0, 30])), Body("b", ring, Translation([900]))], (0, 90)
     )
 
-    assert first_within(scene, "a", "b", "1/3", norm="euclidean") is not None
+    assert first_within(scene, "a", "b", "1/3") is not None
     assert 1 <= len(decided) <= 12
     with pytest.raises(InputError, match="square of a rational"):
         first_within(
             Scene([Body("p", [(0, 0)], radius=1), Body("q", [(9, 9)])]),
-            "p", "q", distance_squared=2, norm="euclidean",
+            "p", "q", distance_squared=2,
         )  # fmt: skip

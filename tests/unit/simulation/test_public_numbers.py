@@ -217,9 +217,8 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
     assert no_leaks(contact=contact) > 5
     assert json.loads(json.dumps(contact.time.polynomial)) == list(contact.time.polynomial)
     assert not contact.time.is_rational
-    for norm in ("euclidean", "max"):
-        assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3", norm=norm))
-        assert no_leaks(first=exactpt.first_within(scene, distance="1/3", norm=norm)) > 1
+    assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3"))
+    assert no_leaks(first=exactpt.first_within(scene, distance="1/3")) > 1
     assert no_leaks(there=exactpt.distance(scene, "box", "mill", at=1)) > 1
     assert no_leaks(gap=exactpt.clearance(scene, "box", "mill")) > 5
     assert no_leaks(around=exactpt.clearance(scene, "box")) > 5
