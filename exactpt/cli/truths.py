@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,16 +9,13 @@ from typing import BinaryIO
 
 import click
 
-from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
-from exactpt.cli.progress import estimating
+from exactpt.cli.options import RATIONAL, bounded, max_bytes, output, within_budget
 from exactpt.cli.terminal import print_error, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
 _FEW = 10
 """Number of wrong answers that are named."""
-_FOLDER = "exact-2d-collision-set-1"
-"""The folder of the set, unless another is named."""
 
 
 @click.command()
@@ -67,82 +63,25 @@ class _WithQuestions(click.Command):
 
 
 @click.command(cls=_WithQuestions)
-@click.argument("family", required=False)
+@click.argument("family")
 @click.option(
     "-n", "count", type=click.IntRange(min=0), default=100, show_default=True,
     help="Number of questions, of each family.",
 )  # fmt: skip
 @click.option("--seed", type=int, default=0, show_default=True, help="Seed of the questions.")
 @output("The file of questions; by default standard output.")
-@click.option(
-    "--set", "folder", type=click.Path(path_type=Path), is_flag=False, flag_value=_FOLDER,
-    metavar="[FOLDER]", help=f"Write the Exact 2D collision set; by default to {_FOLDER}.",
-)  # fmt: skip
-@click.option(
-    "--questions", "passages", type=click.IntRange(min=0), default=1_000_000, show_default=True,
-    help="Number of questions about a point and a segment in the set.",
-)  # fmt: skip
-@click.option(
-    "--scenes", type=click.IntRange(min=0), default=10_000, show_default=True,
-    help="Number of scenes in the set.",
-)  # fmt: skip
-@click.option(
-    "--jobs", type=click.IntRange(min=1), default=1, show_default=True,
-    help="Number of processes that write the set.",
-)  # fmt: skip
-@QUIET
-def questions(
-    family: str | None,
-    count: int,
-    seed: int,
-    output: Path | None,
-    folder: Path | None,
-    passages: int,
-    scenes: int,
-    jobs: int,
-    quiet: bool,
-) -> int:
+def questions(family: str, count: int, seed: int, output: Path | None) -> int:
     """Write questions about two bodies, one line of JSON each: of a family, or of "all".
 
     They are the same on every machine. Their ids identify them, so that `exactpt judge` needs
     the answers alone.
 
-    With --set, write the Exact 2D collision set, version 1, to a new folder: questions of all
-    families with exact answers, also as queries of CCD benchmarks, scenes with proofs, checksums,
-    a licence (CC0) and a README. docs/collision-set.md has the checksums of the whole.
-
     \b
     Examples:
       exactpt questions hairs_breadth -n 1000 -o questions.jsonl
       exactpt questions all -n 5 --seed 7
-      exactpt questions --set --jobs 4
-      exactpt questions --set small --questions 1000 --scenes 100
     """
-    if folder is not None:
-        idle = [*typed("count", "seed", "output"), *(["FAMILY"] if family else [])]
-        if idle:
-            raise InputError(f"{idle[0]}: not with --set")
-        return _write_set(folder, passages, scenes, jobs, quiet=quiet)
-    idle = typed("passages", "scenes", "jobs")
-    if idle:
-        raise InputError(f"{idle[0]}: only with --set")
-    if family is None:
-        raise InputError("name a family, or all, or write the --set")
     _write_questions(family, count, seed, output)
-    return 0
-
-
-def _write_set(folder: Path, passages: int, scenes: int, jobs: int, *, quiet: bool) -> int:
-    from exactpt.collision_set.writing import planned, write_set
-
-    parts = planned(passages, scenes)
-    numbers = itertools.count(1)
-    with estimating("Families", quiet=quiet) as show:
-        summary = write_set(folder, parts, jobs=jobs, done=lambda: show(next(numbers), len(parts)))
-    if not quiet:
-        print_output(
-            f"{summary.files} files: {folder}", f"SHA-256 of SHA256SUMS: {summary.manifest}"
-        )
     return 0
 
 

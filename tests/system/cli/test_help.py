@@ -36,7 +36,7 @@ def examples(command):
 
 
 MARKS = {"check": pytest.mark.cgal}
-MINUTES = ["exactpt questions --set --jobs 4", "exactpt draw scene.json -o film.gif"]
+MINUTES = ["exactpt draw scene.json -o film.gif"]
 COMMANDS = {"": cli, **all_commands()}
 EXAMPLES = [
     pytest.param(line, marks=pytest.mark.slow if line in MINUTES else MARKS.get(name, []))

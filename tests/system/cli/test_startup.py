@@ -108,19 +108,6 @@ def test_help_without_docstrings_has_the_options(tmp_path):
     assert "--tiling" in run("2", tmp_path, "collide", "--help")[1]
 
 
-def test_a_set_whose_readme_would_lack_its_descriptions_is_refused(tmp_path):
-    """The README said "None" of each family."""
-    status, out, said = run(
-        "2", tmp_path, "questions", "--set", "set", "--questions", "0", "--scenes", "0"
-    )
-
-    assert (status, out) == (2, "")
-    assert said == (
-        "exactpt: PYTHONOPTIMIZE=2 removes the descriptions that the README of a set quotes\n"
-    )
-    assert not (tmp_path / "set").exists()
-
-
 # Workers never receive Ctrl-C, not even while they import what they need
 
 PROGRAM = """

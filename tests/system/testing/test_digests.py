@@ -13,9 +13,9 @@ from random import Random
 import pytest
 
 from benchmarks import first_contact, planted, point_scenes
+from benchmarks.collision_set import passages
 from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
-from exactpt.collision_set import passages
 from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.written import to_json
 from exactpt.testing.families import FAMILIES as QUESTIONS

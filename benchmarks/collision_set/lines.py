@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from exactpt.collision_set.answers import coordinates
-from exactpt.collision_set.passages import Passage
+from benchmarks.collision_set.answers import coordinates
+from benchmarks.collision_set.passages import Passage
 from exactpt.testing.truth import Truth
 
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
-from exactpt.collision_set import passages
-from exactpt.collision_set.parts import VERSION, Part, Written
+from benchmarks.collision_set import passages
+from benchmarks.collision_set.parts import VERSION, Part, Written
 from exactpt.testing import families
 
 _HERE: Final = Path(__file__).parent

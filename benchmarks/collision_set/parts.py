@@ -12,9 +12,9 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from exactpt.collision_set.answers import answers
-from exactpt.collision_set.lines import ccd_query, question_line, truth_line
-from exactpt.collision_set.passages import make_passage
+from benchmarks.collision_set.answers import answers
+from benchmarks.collision_set.lines import ccd_query, question_line, truth_line
+from benchmarks.collision_set.passages import make_passage
 from exactpt.proof import prove
 from exactpt.testing.families import make_question
 from exactpt.testing.truth import Truth

@@ -3,6 +3,8 @@
 import gzip
 import hashlib
 import json
+import subprocess
+import sys
 import tarfile
 from collections import Counter
 from fractions import Fraction
@@ -10,18 +12,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import code_of
 
+from benchmarks.collision_set import passages, writing
+from benchmarks.collision_set.__main__ import collision_set
+from benchmarks.collision_set.answers import answers, coordinates
+from benchmarks.collision_set.passages import (
+    FAMILIES,
+    make_passage,
+    polynomial,
+)
+from benchmarks.collision_set.writing import planned, write_set
 from exactpt import InputError, proof_check
-from exactpt.collision_set import passages, writing
-from exactpt.collision_set.answers import answers, coordinates
-from exactpt.collision_set.passages import DEGENERATE, FAMILIES, GENERIC, make_passage, polynomial
-from exactpt.collision_set.writing import planned, write_set
+from exactpt.cli import main
 from exactpt.testing import families
 from exactpt.testing.oracle import Refusals
 from exactpt.testing.oracle import answers as oracle_answers
 
-SAMPLE = Path(__file__).parents[2] / "data/collision-set"
+SAMPLE = Path(__file__).parents[2] / "data" / "collision-set"
 SIZES = {"questions": 76, "scenes": 36}
 
 
@@ -42,30 +49,12 @@ def lines(folder, name):
 
 
 @pytest.mark.long
-def test_the_sample_is_written_again_byte_by_byte(small):
-    """Its manifest has the checksums of all files; a few are kept in the repository whole."""
-    kept = [path.relative_to(SAMPLE).as_posix() for path in SAMPLE.rglob("*") if path.is_file()]
-
-    assert len(kept) == 8
-    for name in kept:
-        assert content(small, name) == (SAMPLE / name).read_bytes(), name
-
-
-@pytest.mark.long
-def test_the_page_names_the_checksum_of_the_sample(small):
-    page = (Path(__file__).parents[3] / "docs/collision-set.md").read_text(encoding="utf-8")
-    manifest = hashlib.sha256((small / "SHA256SUMS").read_bytes()).hexdigest()
-
-    assert f"--questions {SIZES['questions']} --scenes {SIZES['scenes']}` | `{manifest}` |" in page
-
-
-@pytest.mark.slow  # three minutes
-def test_the_page_names_the_checksum_of_the_whole(tmp_path):
-    page = (Path(__file__).parents[3] / "docs/collision-set.md").read_text(encoding="utf-8")
-
-    summary = write_set(tmp_path / "set", planned(), jobs=4)
-
-    assert f"| `exactpt questions --set` | `{summary.manifest}` |" in page
+@pytest.mark.parametrize(
+    "name",
+    sorted(path.relative_to(SAMPLE).as_posix() for path in SAMPLE.glob("*/*.*") if path.is_file()),
+)
+def test_questions_and_truths_are_those_of_the_published_set(small, name):
+    assert content(small, name) == (SAMPLE / name).read_bytes()
 
 
 @pytest.mark.long
@@ -154,13 +143,36 @@ def test_queries_are_the_questions_lifted(small, family):
             assert all(min(a[i], b[i]) <= p[i] <= max(a[i], b[i]) for i in (0, 1))
 
 
+def run(*arguments):
+    """Run the command; its exit code."""
+    with pytest.raises(SystemExit) as ended:
+        main([str(a) for a in arguments], command=collision_set, name="collision_set")
+    return ended.value.code
+
+
 def test_a_folder_that_is_not_empty_is_refused(tmp_path, capsys):
     (tmp_path / "mine").write_text("")
 
-    assert code_of("questions", "--set", tmp_path, "--questions", 0, "--scenes", 0) == 2
+    assert run(tmp_path, "--questions", 0, "--scenes", 0) == 2
 
     assert capsys.readouterr().err == f"exactpt: {tmp_path}: it is there; name a new folder\n"
     assert [path.name for path in tmp_path.iterdir()] == ["mine"]
+
+
+def test_a_set_whose_readme_would_lack_its_descriptions_is_refused(tmp_path):
+    """With PYTHONOPTIMIZE=2 the README said "None" of each family."""
+    command = [sys.executable, "-OO", "-m", "benchmarks.collision_set", tmp_path / "set"]
+    root = Path(__file__).parents[3]
+
+    done = subprocess.run(
+        [*command, "--questions", "0"], cwd=root, capture_output=True, text=True, check=False
+    )
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "exactpt: PYTHONOPTIMIZE=2 removes the descriptions that the README of a set quotes\n"
+    )
+    assert not (tmp_path / "set").exists()
 
 
 def test_nothing_is_left_of_a_set_that_ends_early(tmp_path, monkeypatch):
@@ -183,24 +195,8 @@ def test_a_folder_that_cannot_be_written_is_refused(tmp_path):
         write_set(tmp_path / "none" / "set", planned(0, 0))
 
 
-@pytest.mark.parametrize(
-    "arguments, says",
-    [
-        (["--set", "x", "-n", "3"], "-n: not with --set"),
-        (["sliding", "--set", "x"], "FAMILY: not with --set"),
-        (["sliding", "--jobs", "2"], "--jobs: only with --set"),
-        (["sliding", "--questions", "2"], "--questions: only with --set"),
-        ([], "name a family, or all, or write the --set"),
-    ],
-)
-def test_options_of_the_other_use_are_refused(arguments, says, capsys):
-    assert code_of("questions", *arguments) == 2
-
-    assert capsys.readouterr().err == f"exactpt: {says}\n"
-
-
 def test_the_command_names_the_checksum_of_the_manifest(tmp_path, capsys):
-    code = code_of("questions", "--set", tmp_path / "s", "--questions", 19, "--scenes", 0)
+    code = run(tmp_path / "s", "--questions", 19, "--scenes", 0)
 
     manifest = (tmp_path / "s" / "SHA256SUMS").read_bytes()
     assert code == 0
@@ -212,11 +208,6 @@ def test_the_command_names_the_checksum_of_the_manifest(tmp_path, capsys):
 
 def some(family, count=60):
     return [make_passage(family, number) for number in range(count)]
-
-
-def test_there_are_twelve_degenerate_families_or_more_and_four_generic_ones():
-    assert len(DEGENERATE) >= 12
-    assert len(GENERIC) == 4
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
-from exactpt.collision_set.places import Corners, Place, cross, mean, minus, plus, shifted, times
+from benchmarks.collision_set.places import Corners, Place, cross, mean, minus, plus, shifted, times
 from exactpt.errors import InputError
 
 FINE: Final = 40

@@ -14,9 +14,9 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from exactpt.collision_set import passages
-from exactpt.collision_set.about import LICENSE, about
-from exactpt.collision_set.parts import Part, Written, write_part
+from benchmarks.collision_set import passages
+from benchmarks.collision_set.about import LICENSE, about
+from benchmarks.collision_set.parts import Part, Written, write_part
 from exactpt.errors import InputError
 from exactpt.testing import families
 

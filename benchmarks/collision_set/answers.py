@@ -7,9 +7,9 @@ from math import ldexp
 
 import numpy as np
 
+from benchmarks.collision_set.passages import Passage, polynomial
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.arrays.queries import point_segment_contacts
-from exactpt.collision_set.passages import Passage, polynomial
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.testing.truth import Truth, first_pair, root_between
