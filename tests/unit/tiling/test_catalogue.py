@@ -1,6 +1,5 @@
 """The catalogue: which tiling is meant, and a structure that is registered from outside."""
 
-import re
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -151,12 +150,3 @@ def test_stats_name_the_rules_and_why_they_were_chosen(bodies, tiling, rules, wh
     stats = Simulation(scene, tiling=tiling).stats
 
     assert (stats["rules"], stats["why"]) == (rules, why)
-
-
-def test_the_page_on_tilings_has_all_that_predicates_offer():
-    page = (Path(__file__).parents[3] / "docs" / "extending.md").read_text(encoding="utf-8")
-    table = page.partition("| attribute |")[2].partition("\n\n")[0]
-    attributes = {"vertices", "time", "after"}  # descriptors of the class where it is compiled
-    named = set(re.findall(r"`(\w+)[`(]", table)) - attributes
-
-    assert named == {n for n in vars(PredicatesAt) if not n.startswith("_")} - attributes
