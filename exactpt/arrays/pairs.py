@@ -16,7 +16,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, finite_rows, first_true, indices
 from exactpt.kernel.numbers import QQ, of_double
 from exactpt.scene.body_arrays import BodyArrays
-from exactpt.scene.scene import Scene, check_simple, scene_of
+from exactpt.scene.scene import Scene, check_valid, scene_of
 
 BLOCK: Final = 1 << 14
 """Number of pairs at a time."""
@@ -97,7 +97,7 @@ def first_contacts(
     used[list(wrong)] = False
     for k in bodies.doubtful(np.flatnonzero(used)):
         try:
-            check_simple(bodies.make(k), QQ(0))
+            check_valid(bodies.make(k), QQ(0), QQ(1))
         except InputError as error:
             if not masked:
                 raise

@@ -39,7 +39,7 @@ from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.motion.outline import is_rigid
+from exactpt.motion.outline import may_touch_itself
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.pairs.contact import Contact
@@ -182,7 +182,7 @@ class _Search:
         """Return the first contacts among those whose times are exact."""
         bodies = list(zip(self._scene.bodies, self._errors, strict=True))
         parts = [[body for body, e in bodies if not e]]
-        parts += [[body] for body, e in bodies if e and not body._radius and not is_rigid(body)]
+        parts += [[body] for body, e in bodies if e and may_touch_itself(body)]
         first: Earliest[Contact] = Earliest()
         for part in parts:
             contact = self._first(part)

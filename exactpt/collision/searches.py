@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
+from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.search import pair_search
 from exactpt.scene.scene import Scene
 
@@ -23,8 +24,8 @@ class ContactQuery(NamedTuple):
             `first_contact`; the names of method and tiling are known.
         scene_file: the bytes of the scene's file, which a proof then names.
         given: the scene with its first start, which a certificate names without a file.
-        max_events: maximum number of events of a tiling, which "auto" then keeps; None for no
-            limit.
+        max_events: maximum number of events of a tiling, which "auto" then keeps if it can; None
+            for no limit.
         max_seconds: time limit, in seconds; None for no limit.
     """
 
@@ -62,7 +63,7 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
     if question.proof is not None:
         return _proved(scene, question, question.proof)
     if question.max_events is not None and method == "auto" and not groups:
-        method = "kinetic"
+        method = "kinetic" if are_tileable(scene.bodies) else "pairs"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
         search = pair_search(scene, exact_only=exact_only, ignoring=groups, max_seconds=seconds)

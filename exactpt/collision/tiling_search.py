@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from exactpt.collision.driver import Driver
 from exactpt.kernel.budget import Budget, searching
-from exactpt.motion.body import refuse_radii
+from exactpt.motion.tileable import refuse_untileable
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.tiling.report import report
@@ -40,7 +40,7 @@ class TilingSearch:
         max_events: int | None = None,
         max_seconds: float | None = None,
     ) -> None:
-        refuse_radii(scene.bodies)
+        refuse_untileable(scene.bodies)
         self.name: str = tiling_for_contact(scene, tiling)
         self._scene = scene
         self._exact_only = exact_only

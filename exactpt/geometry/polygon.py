@@ -57,18 +57,12 @@ def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int
 
     The polygon (or chain) is simple if and only if the result is None.
     """
-    return first_touch(points, edges(len(points), closed=closed))
-
-
-def first_touch(
-    points: Sequence[Point], pairs: Sequence[tuple[int, int]]
-) -> tuple[int, int] | None:
-    """As `first_self_touch`, of given edges as pairs of points."""
+    pairs = edges(len(points), closed=closed)
     for i, (u, v) in enumerate(pairs):
         if points[u] == points[v]:
             return i, i
     near = near_groups([(points[u], points[v]) for u, v in pairs])
-    return min((ij for ij in near if _touch(points, *(pairs[k] for k in ij))), default=None)
+    return min((ij for ij in near if edges_touch(points, *(pairs[k] for k in ij))), default=None)
 
 
 def near_groups(groups: Sequence[Sequence[Point]]) -> Iterator[tuple[int, int]]:
@@ -91,7 +85,8 @@ def near_groups(groups: Sequence[Sequence[Point]]) -> Iterator[tuple[int, int]]:
             yield i, j
 
 
-def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> bool:
+def edges_touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> bool:
+    """Return True if two edges, as pairs of vertices, share more than a common vertex."""
     common = set(e) & set(f)
     if not common:
         return segments_meet(points[e[0]], points[e[1]], points[f[0]], points[f[1]])

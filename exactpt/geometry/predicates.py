@@ -40,6 +40,15 @@ def orientation(a: Point, b: Point, c: Point) -> int:
     return sign(orient2d(a, b, c))
 
 
+def is_left_of_path(before: Point, at: Point, after: Point, p: Point) -> bool:
+    """Return True if p, seen from the middle of a path of three points, is on its left.
+
+    The point p is on neither of the two rays from the middle through the ends of the path.
+    """
+    first, second = orientation(before, at, p) > 0, orientation(at, after, p) > 0
+    return first and second if orientation(before, at, after) > 0 else first or second
+
+
 def in_triangle(p: Point, a: Point, b: Point, c: Point) -> bool:
     """Return True if p is in the closed triangle abc, which is counter-clockwise."""
     return orientation(a, b, p) >= 0 and orientation(b, c, p) >= 0 and orientation(c, a, p) >= 0

@@ -29,6 +29,7 @@ from exactpt.motion.motions import (
     Motion,
     Pieces,
     Position,
+    is_affine,
     made,
 )
 from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
@@ -55,30 +56,19 @@ def is_text(name: object) -> bool:
         return False
 
 
-def refuse_radii(bodies: Iterable[Body]) -> None:
-    """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
-
-    Raises:
-        InputError: if one of them is rounded.
-    """
-    radii = getattr(bodies, "radii", None)  # of bodies in arrays
-    if radii is not None and not radii.any():
-        return
-    for body in bodies:
-        if body._radius:
-            raise InputError(
-                f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
-                "their contacts are found by pairs (first_contact, collide)"
-            )
-
-
 @final
 class Body:
     """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
 
     A polygon may have holes, and a body several parts that move together: then vertices and
     edges are numbered through its rings, part by part, each outline before its holes. A hole is
-    open: a body may be in it, and touches at its edges.
+    open: a body may be in it, and touches at its edges. Rings may touch each other in single
+    points, if the body keeps its shape and the inside of each part is connected: this is no
+    contact.
+
+    >>> notched = Body("b", [(0, 0), (8, 0), (8, 8), (0, 8)], holes=[[(4, 0), (5, 2), (3, 2)]])
+    >>> notched.rings, notched.edges[4]
+    ((range(0, 4), range(4, 7)), (4, 5))
 
     With a radius it is rounded: all points within the radius of that set, its core. So a point
     becomes a disc, a segment a capsule.
@@ -97,10 +87,10 @@ class Body:
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
             interpolated linearly between them, and rests before the first and after the
             last.
-        holes: the outlines of holes in the polygon: disjoint, and inside of it. Either
-            orientation is accepted.
-        parts: instead of vertices, the disjoint parts of the body: outlines, or mappings with
-            "vertices" and "holes".
+        holes: the outlines of holes in the polygon, inside of it: disjoint, or touching it and
+            each other in single points. Either orientation is accepted.
+        parts: instead of vertices, the parts of the body, disjoint or touching each other in
+            single points: outlines, or mappings with "vertices" and "holes".
         radius: a number >= 0.
         properties: further data, such as those of a GeoJSON feature, see `properties`.
 
@@ -108,7 +98,9 @@ class Body:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = ("_course", "_parts", "_properties", "_radius", "_shape", "closed", "name")
+    __slots__ = (
+        "_course", "_known_touches", "_parts", "_properties", "_radius", "_shape", "closed", "name"
+    )  # fmt: skip
 
     def __init__(
         self,
@@ -133,6 +125,7 @@ class Body:
         self.closed = closed
         self._radius = _read_radius(name, radius)
         self._parts: Parts | None = None
+        self._known_touches: tuple[tuple[QQ, QQ], ...] | None = None
         if properties is not None and not _has_texts(properties):
             raise InputError(f"body {shorten(name)}: properties: not a mapping of texts to data")
         self._properties = dict(properties) if properties else None
@@ -324,6 +317,22 @@ class Body:
     def has_rings(self) -> bool:
         """True if the body has more than one ring: holes, or several parts."""
         return self._parts is not None
+
+    @property
+    def _ring_touches(self) -> tuple[tuple[QQ, QQ], ...]:
+        """The points in which rings touch, in the rest frame; none if the rings are disjoint.
+
+        A scene holds a body with such points only if the body keeps its shape
+        (`exactpt.scene.valid`): its rings touch there at all times, and nowhere else. This is no
+        contact. Rings of a body with vertices that deform are disjoint at the start.
+        """
+        if self._parts is None:
+            return ()
+        if self._known_touches is None:
+            from exactpt.motion.rings import rest_touches
+
+            self._known_touches = rest_touches(self.vertices, self.edges, self.rings)
+        return self._known_touches if is_affine(self.motion) else ()
 
     @property
     def has_interior(self) -> bool:

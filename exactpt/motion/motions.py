@@ -298,4 +298,13 @@ class Pieces(_Given):
         return f"Pieces({list(zip(ends, self.motions, strict=True))!r})"
 
 
+def is_affine(motion: Motion) -> bool:
+    """Return True if a motion is at each time an affine map of the plane, as all of exactpt's are.
+
+    A motion of a caller's own class may map vertices in any way.
+    """
+    formulas = motion.motions if isinstance(motion, Pieces) else (motion,)
+    return all(isinstance(formula, (Translation, Rigid, Affine)) for formula in formulas)
+
+
 Motion: TypeAlias = "SimpleMotion | Pieces"

@@ -50,6 +50,15 @@ def is_rigid(body: Body) -> bool:
     )
 
 
+def may_touch_itself(body: Body) -> bool:
+    """Return True if a body, valid at the start, may come into a contact with itself.
+
+    A body with a radius does not by definition, nor does one with rings that touch: it keeps its
+    shape.
+    """
+    return not (body._radius or is_rigid(body) or body._ring_touches)
+
+
 def rest_outline(body: Body) -> Outline | None:
     """Return the vertices in the rest frame; None if the body deforms there, or is out of range."""
     near = body._shape.near

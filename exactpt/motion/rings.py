@@ -6,7 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Final, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import shorten
+from exactpt.geometry.touching_rings import ring_meetings
+from exactpt.kernel.numbers import QQ, shorten
+from exactpt.motion.motions import Position
 from exactpt.motion.shape import Shape, VertexLike, listed
 
 Outline: TypeAlias = "Iterable[VertexLike]"
@@ -96,6 +98,16 @@ def ring_edges(parts: Parts) -> list[tuple[int, int]]:
         for ring in rings
         for i in ring
     ]
+
+
+def rest_touches(
+    vertices: Sequence[Position], edges: Sequence[tuple[int, int]], rings: Sequence[range]
+) -> tuple[tuple[QQ, QQ], ...]:
+    """Return the points in which rings with these vertices touch; none if the vertices deform."""
+    if any(f.degree > 0 for vertex in vertices for f in vertex):
+        return ()
+    points = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in vertices]
+    return tuple(touch.point for touch in ring_meetings(points, edges, rings).touches)
 
 
 def parts_given(parts: Parts, vertices: Sequence[object]) -> dict[str, object]:

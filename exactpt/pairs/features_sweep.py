@@ -35,6 +35,7 @@ from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
+from exactpt.motion.tileable import are_tileable
 from exactpt.motion.track import Touch
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
@@ -53,7 +54,8 @@ class PairsSearch:
     """A search for the first contact.
 
     Two bodies of which one has a radius touch where the distance of their cores is the sum of the
-    radii (`ApproachSearch`); a body with a radius does not touch itself.
+    radii (`ApproachSearch`); a body with a radius does not touch itself, nor does one with rings that
+    touch: it keeps its shape.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -92,7 +94,9 @@ class PairsSearch:
         self._counters = Counters()
         has_radius = [body._radius > 0 for body in scene.bodies]
         self._has_radius: NDArray[np.bool_] = np.array(has_radius, dtype=np.bool_)
-        alone = [body.name in ignoring_self for body in scene.bodies]
+        alone = [
+            body.name in ignoring_self or bool(body._ring_touches) for body in scene.bodies
+        ]
         self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
         self._passed: QQ | None = None
@@ -122,7 +126,7 @@ class PairsSearch:
         has about three certificates for each vertex.
         """
         scene = self._scene
-        if not scene.bodies or scene.has_radius:
+        if not scene.bodies or not are_tileable(scene.bodies):
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from exactpt.geometry.polygon import contains
-from exactpt.geometry.predicates import Point, between, orientation
+from exactpt.geometry.predicates import Point, between, is_left_of_path, orientation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
@@ -80,16 +80,10 @@ def _chains_cross(p: Sequence[Point], q: Sequence[Point]) -> bool:
                 continue  # an end of a path in the other direction
             if min(i, k, l) == 0 or j == len(p) - 1 or max(k, l) == len(q) - 1:
                 continue
-            left = _is_left(p[i - 1], p[i], p[i + 1], q[k - step])
-            if left != _is_left(p[j - 1], p[j], p[j + 1], q[l + step]):
+            left = is_left_of_path(p[i - 1], p[i], p[i + 1], q[k - step])
+            if left != is_left_of_path(p[j - 1], p[j], p[j + 1], q[l + step]):
                 return True
     return False
-
-
-def _is_left(before: Point, at: Point, after: Point, v: Point) -> bool:
-    """Return True if v, seen from the middle of a path of three points, is on its left."""
-    first, second = orientation(before, at, v) > 0, orientation(at, after, v) > 0
-    return first and second if orientation(before, at, after) > 0 else first or second
 
 
 def _enters(

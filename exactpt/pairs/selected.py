@@ -16,7 +16,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, check_budget, within
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.outline import is_rigid
+from exactpt.motion.outline import may_touch_itself
 from exactpt.motion.track import Touch, renumbered
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.contact import Contact, contact_of
@@ -134,8 +134,7 @@ class SelectedSearch:
         """Return the bodies that may touch themselves."""
         if self._selection.named is not None:
             return []
-        bodies = enumerate(self._scene.bodies)
-        return [i for i, body in bodies if not body._radius and not is_rigid(body)]
+        return [i for i, body in enumerate(self._scene.bodies) if may_touch_itself(body)]
 
     def _read_rows(self) -> None:
         pieces = None if self._exact_only else linear_pieces(self._scene)

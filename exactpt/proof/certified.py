@@ -18,6 +18,7 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.motion.tileable import refuse_touching_rings
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.selection import Selection
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts
     from exactpt.collision.search import Search
     from exactpt.collision.searches import ContactQuery
+    from exactpt.motion.body import Body
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
@@ -72,14 +74,15 @@ def certify(
         The certificate, with the contact; if a distance or a time is given, ``contact`` is None.
 
     Raises:
-        InputError: if the scene is none, a body or time does not exist, no pair counts, a
-            coordinate has a degree above 64, a body is inside another body at that time, or the
+        InputError: if the scene is none, a body or time does not exist, no pair counts, rings of a
+            body touch, a coordinate has a degree above 64, a body is inside another body at that time, or the
             first contact is one of a body with itself.
         BudgetExceeded: if bodies come too near to each other before the contact, or are not
             farther apart than the distance at the time, or the contact is a touch without
             crossing at an irrational time.
     """
     a_scene(scene)
+    _refuse_touching_rings(scene.bodies)
     groups = ignoring if isinstance(ignoring, str) else list(ignoring)
     named = None if between is None else list(between)
     d, part = rational(distance), scene
@@ -138,6 +141,15 @@ def certify_rows(contacts: Contacts) -> Proof:
     return Proof(None, file, "".join(f"{line}\n" for line in [*head, *rows]).encode())
 
 
+def _refuse_touching_rings(bodies: Iterable[Body]) -> None:
+    """Refuse bodies that the checkers do not accept: those with rings that touch.
+
+    Raises:
+        InputError: if there is one.
+    """
+    refuse_touching_rings(bodies, "there is no certificate about such bodies yet")
+
+
 @final
 class CertifiedSearch:
     """A search for the first contact, with a certificate of its result.
@@ -177,6 +189,7 @@ class _Certificate:
     """The certificate of a first contact of the pairs of bodies that count."""
 
     def __init__(self, scene: Scene, file: bytes, selection: Selection, distance: Fraction) -> None:
+        _refuse_touching_rings(scene.bodies)
         refuse_degrees(scene.bodies)
         if selection.named == []:
             raise InputError("no pair of bodies counts: there is nothing to certify")

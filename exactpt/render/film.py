@@ -10,6 +10,7 @@ from exactpt.collision.driver import Driver
 from exactpt.errors import carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import Budget, searching
+from exactpt.motion.tileable import are_tileable
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
 from exactpt.tiling.start import plan_tiling
 
@@ -99,7 +100,8 @@ def film_of(
 
     Args:
         scene: the bodies, their motions and the time span.
-        tiling: the name of the tiling, or "auto"; None for bodies without a tiling.
+        tiling: the name of the tiling, or "auto", which is none if no tiling can hold the bodies;
+            None for bodies without a tiling.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
         reached: called with the times that the run reaches.
@@ -107,7 +109,7 @@ def film_of(
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if tiling is None or scene.has_radius:
+    if tiling is None or (tiling == "auto" and not are_tileable(scene.bodies)):
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
         return film_without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, final
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
+from exactpt.motion.tileable import are_tileable
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
 from exactpt.simulation.simulation import Simulation
@@ -27,7 +28,7 @@ class Still:
         scene: the scene.
         at: the time; a rational just before it if the time is irrational.
         tiling: the tiling at that time (at a contact: the one just before); None if the bodies
-            touch at the start, one is rounded, or none is wanted.
+            touch at the start, no tiling can hold them, or none is wanted.
         contact: the contact, if this is its time.
     """
 
@@ -58,7 +59,7 @@ def still(
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation: Simulation | None = None
-    if tiling is None or scene.has_radius:
+    if tiling is None or (tiling == "auto" and not are_tileable(scene.bodies)):
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
     else:
         simulation = Simulation(

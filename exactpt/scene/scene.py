@@ -32,8 +32,9 @@ class Scene:
             each body on first access (`from_arrays`).
 
     Raises:
-        InputError: if a name repeats, the end is not after the start, or a polygon or
-            chain is not simple at the start.
+        InputError: if a name repeats, the end is not after the start, or a body is not valid at
+            the start: a polygon or chain is not simple, holes or parts are where none can be, or
+            rings touch of a body that does not keep its shape.
         RoundingError: see `check_rounding`.
     """
 
@@ -51,7 +52,7 @@ class Scene:
             if body.name in names:
                 raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
             names.add(body.name)
-            check_simple(body, self._start)
+            check_valid(body, self._start, self._end)
 
     @classmethod
     def from_arrays(
@@ -100,7 +101,7 @@ class Scene:
         )  # fmt: skip
         start, end = _span(time)
         for k in bodies.doubtful():
-            check_simple(bodies.make(k), start)
+            check_valid(bodies.make(k), start, end)
         return scene_of(bodies, start, end)
 
     @classmethod
@@ -294,8 +295,7 @@ class Scene:
         """Return the scene from a later start on; an earlier start changes nothing.
 
         Raises:
-            InputError: if the start is not before the end, or a polygon or chain is not simple
-                at the start.
+            InputError: if the start is not before the end, or a body is not valid at the start.
         """
         first = max(rational(start), self._start)
         if first >= self._end:
@@ -303,7 +303,7 @@ class Scene:
                 f"the start t = {show(first)} is not before the end t = {show(self._end)}"
             )
         for body in self.bodies:
-            check_simple(body, first)
+            check_valid(body, first, self._end)
         return scene_of(self.bodies, first, self._end)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
@@ -439,16 +439,16 @@ def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:
     return scene_of(bodies, rational(start), rational(end))
 
 
-def check_simple(body: Body, start: QQ) -> None:
-    """Check that a body is a simple polygon or chain at the start: by doubles first.
+def check_valid(body: Body, start: QQ, end: QQ) -> None:
+    """Check that a body is valid at the start of a time span: by doubles first.
 
     Raises:
-        InputError: if it is not; see `exactpt.scene.simple`.
+        InputError: if it is not; see `exactpt.scene.valid`.
     """
     if not is_simple_by_doubles(body, start):
-        from exactpt.scene.simple import check_exactly
+        from exactpt.scene.valid import check_exactly
 
-        check_exactly(body, start)
+        check_exactly(body, start, end)
 
 
 def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:

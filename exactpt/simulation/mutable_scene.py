@@ -9,7 +9,8 @@ from exactpt.collision.driver import TiledScene
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
-from exactpt.motion.body import Body, refuse_radii
+from exactpt.motion.body import Body
+from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.motions import Motion
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
@@ -147,7 +148,7 @@ class MutableScene(TiledScene):
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        refuse_radii([body])
+        refuse_untileable([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
         bodies = [*self._bodies, body]
         events = None if body.has_rings else self.kinetic.add_body(body, t)

@@ -14,7 +14,8 @@ from exactpt.indices import VertexId
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body, refuse_radii
+from exactpt.motion.body import Body
+from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.scene.scene import Scene
@@ -95,7 +96,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
             is rounded.
     """
     bodies, end = scene.bodies, scene._end
-    refuse_radii(bodies)
+    refuse_untileable(bodies)
     made: list[Vertices] = []
 
     def vertices() -> Vertices:

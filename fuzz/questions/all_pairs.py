@@ -3,7 +3,8 @@
 It follows the definition of a contact and uses neither a tiling nor a float filter. It shares
 the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
 `exactpt.motion.track` with the searches that it checks. Where a body has a radius,
-`fuzz.questions.all_pairs_radii` has the definition; such a body does not touch itself.
+`fuzz.questions.all_pairs_radii` has the definition; such a body does not touch itself. Nor does one
+whose rings touch at the start: it keeps its shape.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
         return contact_of(scene, start, touches_at(scene, tracks, start), overlaps)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
-        for j in range(i + 1):
+        for j in range(i if _has_touching_rings(scene, i) else i + 1):
             until = scene._end if best is None else best._high
             time = _first_between(scene, i, j, until)
             if time is not None and (best is None or time.compare(best) < 0):
@@ -48,6 +49,19 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
 
 def _reach(a: Body, b: Body) -> QQ:
     return a._radius + b._radius
+
+
+def _has_touching_rings(scene: Scene, i: int) -> bool:
+    """Return True if a vertex of a body is on an edge of another of its rings at the start."""
+    body = scene.bodies[i]
+    points = body._at(scene._start)
+    return any(
+        segments_meet(points[v], points[v], points[a], points[b])
+        for ring in body.rings
+        for v in ring
+        for a, b in body.edges
+        if len(body.rings) > 1 and a not in ring
+    )
 
 
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
@@ -136,7 +150,7 @@ def touches_at(
             yield from touches_at_distance(bodies, tracks, (i, j), time)
     for i, p in enumerate(tracks):
         for j, q in enumerate(tracks):
-            if _reach(bodies[i], bodies[j]):
+            if _reach(bodies[i], bodies[j]) or (i == j and _has_touching_rings(scene, i)):
                 continue
             for v, track in enumerate(p):
                 on_vertex = [

@@ -56,11 +56,11 @@ REFUSED = {
     "reversed span": (scene(box(), time=("3", "5/2")), "time: the span from 3 to 5/2 is empty"),
     "not simple": (
         scene(box(vertices=[["0", "0"], ["2", "2"], ["2", "0"], ["0", "2"]])),
-        "body 'box': not a simple polygon at the start, t = 0: edge 0 from (0, 0) meets",
+        "body 'box': not a simple polygon and so not valid at the start, t = 0: edge 0 from (0, 0) meets",
     ),
     "no area": (
         scene(box(vertices=[["0", "0"], ["1", "0"], ["1", "0"]])),
-        "body 'box': vertex 1 and the next one are both at (1, 0) at the start, t = 0",
+        "body 'box': not valid at the start, t = 0: vertex 1 and the next one are both at (1, 0)",
     ),
     "jump": (
         scene(box(motion=JUMP)),

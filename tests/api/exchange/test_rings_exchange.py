@@ -89,12 +89,47 @@ def test_other_words_are_refused(tmp_path, given):
         read_shapes(path, **given)
 
 
-def test_parts_that_touch_are_refused_with_what_to_do(tmp_path):
+def test_parts_with_a_common_edge_are_refused_with_what_to_do(tmp_path):
     path = tmp_path / "touching.wkt"
-    path.write_text("MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((1 1, 2 1, 2 2, 1 1)))")
-    with pytest.raises(InputError, match=r"meets edge .*split it \(--parts split\), mend it"):
+    path.write_text("MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((1 0, 2 0, 1 1, 1 0)))")
+    with pytest.raises(InputError, match=r"common piece: .*split it \(--parts split\), mend it"):
         read_shapes(path)
     assert len(read_shapes(path, parts="split").bodies) == 2
+
+
+@pytest.mark.parametrize(
+    "suffix, text",
+    [
+        ("wkt", "MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((1 1, 2 1, 2 2, 1 1)))"),
+        (
+            "geojson",
+            '{"type": "MultiPolygon", "coordinates": [[[[0, 0], [1, 0], [1, 1], [0, 0]]], '
+            "[[[1, 1], [2, 1], [2, 2], [1, 1]]]]}",
+        ),
+    ],
+)
+def test_parts_that_touch_in_a_point_are_one_body(tmp_path, suffix, text):
+    """The parts touch at (1, 1)."""
+    path = tmp_path / f"touching.{suffix}"
+    path.write_text(text)
+    bodies = read_shapes(path).bodies
+    assert [body.rings for body in bodies] == [(range(3), range(3, 6))]
+
+
+@pytest.mark.parametrize("suffix", ["wkt", "geojson", "svg"])
+def test_a_hole_that_touches_the_outline_survives_a_round_trip(tmp_path, suffix):
+    """The hole touches the outline at (4, 0), inside of an edge: the area is 64 - 2 = 62."""
+    notched = Body(
+        "notched", [(0, 0), (8, 0), (8, 8), (0, 8)], holes=[[(4, 0), (5, 2), (3, 2)]]
+    )
+    path = tmp_path / f"notched.{suffix}"
+    write_shapes(Scene([notched]), path)
+    (body,) = read_shapes(path).bodies
+    (geometry,) = Scene([body]).to_shapely(0).values()
+    assert geometry.is_valid
+    assert geometry.area == 62
+    assert sorted(body.at(0)) == sorted(notched.at(0))
+    assert sorted(map(len, body.rings)) == [3, 4]
 
 
 def test_repair_says_what_it_changes(tmp_path, capsys):
@@ -131,14 +166,16 @@ def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
     "hole, options, message",
     [
         ("(1 1, 5 5, 3 3, 1 1)", [], "a hole of polygon 'body 0' has no area: mend it (--repair)"),
-        ("(0 0, 5 2, 2 5, 0 0)", [], "fill its holes (--holes fill), mend it (--repair)"),
-        ("(0 0, 5 2, 2 5, 0 0)", ["--repair"], "rings of 'body 0' touch each other"),
+        ("(0 0, 5 2, 2 5, 0 0)", [], None),
+        ("(0 0, 5 2, 2 5, 0 0)", ["--repair"], None),
+        ("(0 0, 9 2, 2 5, 0 0)", [], "touch at (9, 2) and (0, 0)"),
+        ("(0 0, 9 2, 2 5, 0 0)", [], "fill its holes (--holes fill), mend it (--repair)"),
         ("(1 1, 5 5, 3 3, 1 1)", ["--repair"], None),
-        ("(0 0, 5 2, 2 5, 0 0)", ["--holes", "fill"], None),
+        ("(0 0, 9 2, 2 5, 0 0)", ["--holes", "fill"], None),
     ],
 )
 def test_a_flat_hole_and_one_that_touches_the_outline(tmp_path, capsys, hole, options, message):
-    """The latter is valid for shapely, so nothing mends it."""
+    """One that touches it twice divides the inside."""
     source, target = tmp_path / "a.wkt", tmp_path / "a.json"
     source.write_text(f"POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), {hole})")
 

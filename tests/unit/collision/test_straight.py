@@ -213,7 +213,7 @@ def test_a_crowd_of_doubles_is_built_without_a_rational(monkeypatch):
     monkeypatch.setattr("exactpt.motion.shape.polynomial", counted)
     monkeypatch.setattr("exactpt.motion.shape.rational", counted)
     monkeypatch.setattr("exactpt.kernel.polynomial.rational", counted)
-    monkeypatch.setattr("exactpt.geometry.polygon.first_touch", counted)
+    monkeypatch.setattr("exactpt.geometry.touching_rings.ring_meetings", counted)
     Scene([Body(*body) for body in bodies], (0, 1))
     assert count == [0]
 

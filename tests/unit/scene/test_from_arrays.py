@@ -122,10 +122,16 @@ def test_names_are_found():
 @pytest.mark.parametrize(
     "outline, message",
     [
-        ([(0, 0), (2, 2), (2, 0), (0, 1)], "not a simple polygon at the start, t = 3: edge 0"),
-        ([(0, 0), (1, 1), (2, 2)], "not a simple polygon at the start"),
-        ([(0, 0), (1, 1), (1, 1)], "vertex 1 and the next one are both at"),
-        ([(1, 1), (1, 1)], "vertex 0 and the next one are both at"),
+        (
+            [(0, 0), (2, 2), (2, 0), (0, 1)],
+            "not a simple polygon and so not valid at the start, t = 3: edge 0",
+        ),
+        ([(0, 0), (1, 1), (2, 2)], "not a simple polygon and so not valid at the start"),
+        (
+            [(0, 0), (1, 1), (1, 1)],
+            "not valid at the start, t = 3: vertex 1 and the next one are both at",
+        ),
+        ([(1, 1), (1, 1)], "not valid at the start, t = 3: vertex 0 and the next one are both at"),
     ],
 )
 def test_a_body_that_is_not_simple_is_refused_at_once(outline, message):

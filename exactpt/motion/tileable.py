@@ -1,0 +1,67 @@
+"""Which bodies a tiling can hold: without radius, and with rings that are disjoint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, shorten, show
+from exactpt.motion.body import Body
+
+
+def refuse_untileable(bodies: Iterable[Body]) -> None:
+    """Refuse bodies that a tiling cannot hold.
+
+    It would keep only the cores of rounded bodies apart, and a point in which rings touch pinches
+    the free space.
+
+    Raises:
+        InputError: if one of them is rounded, or its rings touch.
+    """
+    body = _untileable(bodies)
+    if body is None:
+        return
+    refuse_touching_rings([body], "no tiling holds such bodies; their contacts are found by pairs")
+    raise InputError(
+        f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
+        "their contacts are found by pairs (first_contact, collide)"
+    )
+
+
+def are_tileable(bodies: Iterable[Body]) -> bool:
+    """Return True if a tiling can hold bodies."""
+    return _untileable(bodies) is None
+
+
+def refuse_touching_rings(bodies: Iterable[Body], why: str) -> None:
+    """Refuse bodies with rings that touch, where these have to be disjoint.
+
+    Args:
+        bodies: the bodies.
+        why: the reason, as the end of the message.
+
+    Raises:
+        InputError: if rings of one of the bodies touch.
+    """
+    for body in bodies:
+        touches = body._ring_touches
+        if touches:
+            raise InputError(
+                f"body {shorten(body.name)}: its rings touch at {points_shown(touches)} in its "
+                f"rest frame: {why}"
+            )
+
+
+def points_shown(points: Sequence[tuple[QQ, QQ]], most: int = 3) -> str:
+    """Return points as text for a message: the first ones, and how many more there are."""
+    words = " and ".join(show(*point) for point in points[:most])
+    more = len(points) - most
+    return f"{words} and {more} more points" if more > 0 else words
+
+
+def _untileable(bodies: Iterable[Body]) -> Body | None:
+    """Return the first body that a tiling cannot hold."""
+    radii = getattr(bodies, "radii", None)  # of bodies in arrays, which have one ring each
+    if radii is not None and not radii.any():
+        return None
+    return next((body for body in bodies if body._radius or body._ring_touches), None)
