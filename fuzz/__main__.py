@@ -28,7 +28,7 @@ from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
 from fuzz.witnesses import WITNESSES
 
-FAMILIES = tuple(families("convex", "simple", "points", "rounded", "rings"))
+FAMILIES = tuple(families("convex", "simple", "points", "rounded", "rings", "touching"))
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
 MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
 """A scene and a question in turn."""

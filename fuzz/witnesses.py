@@ -8,6 +8,7 @@ from typing import Final, TypeAlias
 from exactpt import Contact, Scene, Simulation, first_contact, proof_check, prove
 from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
+from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.tiling.start import tilings_for
 from fuzz.proofs.checking import checker
@@ -150,7 +151,7 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 def tilings_of(scene: Scene) -> list[str]:
     """The tilings that must support a scene, if there are any."""
-    return [] if scene.has_radius else tilings_for(scene)
+    return tilings_for(scene) if are_tileable(scene.bodies) else []
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:

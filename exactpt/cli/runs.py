@@ -59,7 +59,8 @@ if TYPE_CHECKING:
     show_default=True,
     type=click.Choice(["kinetic", "pairs", "auto"]),
     help="kinetic keeps a tiling, pairs searches pairs of features; auto is pairs unless --tiling, "
-    "--proof or --max-events is given, or many coefficients are out of the range of doubles.",
+    "--proof or, for bodies that a tiling can hold, --max-events is given, or many coefficients "
+    "are out of the range of doubles.",
 )
 @click.option(
     "--ignore",

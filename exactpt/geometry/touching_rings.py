@@ -15,7 +15,6 @@ from typing import NamedTuple, TypeAlias
 from exactpt.geometry.polygon import edges_touch, near_groups
 from exactpt.geometry.predicates import Point, between, is_left_of_path, orientation
 
-
 _Node: TypeAlias = "int | Point"
 """A node of the graph of touches: a ring, by its number, or a point in which rings touch."""
 
@@ -166,7 +165,8 @@ def _crossings(points: Sequence[Point], touch: RingTouch) -> Iterator[EdgeFault]
         path = points[one.before], touch.point, points[one.after]
         sides = {is_left_of_path(*path, points[v]) for v in (other.before, other.after)}
         if len(sides) == 2:
-            yield EdgeFault(*sorted((one.before, other.before)), FaultKind.CROSSING)
+            first, second = sorted((one.before, other.before))
+            yield EdgeFault(first, second, FaultKind.CROSSING)
 
 
 def dividing_loop(touches: Iterable[RingTouch], part: Iterable[int]) -> list[Point]:

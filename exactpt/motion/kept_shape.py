@@ -48,8 +48,10 @@ def _loss_of_motion(motion: SimpleMotion, start: QQ, end: QQ) -> str | None:
     if isinstance(motion, (Translation, Rigid)):
         return None
     if not isinstance(motion, Affine):
-        return f"exactpt does not know whether its motion, of class {type(motion).__name__}, " \
-               "keeps its shape"
+        return (
+            f"exactpt does not know whether its motion, of class {type(motion).__name__}, "
+            "keeps its shape"
+        )
     time = _first_collapse(motion, start, end)
     if time is None:
         return None

@@ -54,8 +54,8 @@ class PairsSearch:
     """A search for the first contact.
 
     Two bodies of which one has a radius touch where the distance of their cores is the sum of the
-    radii (`ApproachSearch`); a body with a radius does not touch itself, nor does one with rings that
-    touch: it keeps its shape.
+    radii (`ApproachSearch`); a body with a radius does not touch itself, nor does one with rings
+    that touch: it keeps its shape.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -94,9 +94,7 @@ class PairsSearch:
         self._counters = Counters()
         has_radius = [body._radius > 0 for body in scene.bodies]
         self._has_radius: NDArray[np.bool_] = np.array(has_radius, dtype=np.bool_)
-        alone = [
-            body.name in ignoring_self or bool(body._ring_touches) for body in scene.bodies
-        ]
+        alone = [body.name in ignoring_self or bool(body._ring_touches) for body in scene.bodies]
         self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
         self._passed: QQ | None = None

@@ -75,8 +75,8 @@ def certify(
 
     Raises:
         InputError: if the scene is none, a body or time does not exist, no pair counts, rings of a
-            body touch, a coordinate has a degree above 64, a body is inside another body at that time, or the
-            first contact is one of a body with itself.
+            body touch, a coordinate has a degree above 64, a body is inside another body at that
+            time, or the first contact is one of a body with itself.
         BudgetExceeded: if bodies come too near to each other before the contact, or are not
             farther apart than the distance at the time, or the contact is a touch without
             crossing at an irrational time.

@@ -48,12 +48,14 @@ CATALOGUE: Final[dict[str, dict[str, Family]]] = {
         (rounded, "rounded_grid rounded_motions"),
     ),
     "rings": _named((rings, "lakes frames walls")),
+    "touching": _named((rings, "touching_rings")),
     "spinning": _named((spinning, "gears mills orbits")),
 }
 """Families by kind, each a function from a random generator to a scene.
 
 Convex bodies that stay convex (points and segments included); simple polygons of any shape; points
-alone; rounded bodies, which no tiling holds; bodies with holes and several parts; bodies that turn
+alone; rounded bodies, which no tiling holds; bodies with holes and several parts; those whose rings
+touch, which no tiling holds; bodies that turn
 at a constant rate, by `Spin`.
 """
 
@@ -68,6 +70,7 @@ FAMILIES: Final = families("convex", "simple")
 POINTS: Final = families("points")
 ROUNDED: Final = families("rounded")
 RINGS: Final = families("rings")
+TOUCHING: Final = families("touching")
 SPINNING: Final = families("spinning")
 EVERY: Final = families(*CATALOGUE)
 

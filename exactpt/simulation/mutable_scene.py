@@ -10,8 +10,8 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.motions import Motion
+from exactpt.motion.tileable import refuse_untileable
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event, events_of

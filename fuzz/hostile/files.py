@@ -88,7 +88,7 @@ def _valid(kind: str, which: int) -> str:
     """A valid file of a format, made from a scene of a family."""
     if which % 2 and kind in ("svg", "mfjson"):
         return DRAWING if kind == "svg" else TRIP
-    special = [*families("rings", "rounded", "spinning")]
+    special = [*families("rings", "rounded", "spinning", "touching")]
     straight = ["chains_on_grid", "bodies_on_grid", "linear_points", "piecewise_points"]
     plain = [*families("convex", "simple", "points")]
     names = {"special": special, "mfjson": straight}.get(kind, plain)

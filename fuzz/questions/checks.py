@@ -42,6 +42,8 @@ from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, path_scene, spinning_scene
 from fuzz.questions.tiny import touching_scene
+from fuzz.questions.touching_rings import touching_pair, wrong_validity
+from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.soak import Soak
@@ -276,6 +278,15 @@ def _space(random: Random) -> Checked:
     return Checked(query, *wrong_in_space(query))
 
 
+def _touching_rings(random: Random) -> Checked:
+    """Whether bodies whose rings touch are valid, and all questions about pairs of them."""
+    if random.random() < 0.5:
+        scene, fault = wrong_validity(random)
+        return Checked(scene or Scene([]), "valid or not", fault)
+    scene = touching_pair(random)
+    return Checked(scene, *wrong_answer_of_touching(random, scene))
+
+
 def _restored(random: Random) -> Checked:
     """A run that has met a contact, and goes on unchanged, is restored as it was saved."""
     scene = meeting_scene(random)
@@ -364,6 +375,7 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "intervals": _intervals,
     "after-start": _after_start,
     "rounded": _rounded,
+    "touching-rings": _touching_rings,
     "spin": _spin,
     "cgal": _cgal,
     "space": _space,

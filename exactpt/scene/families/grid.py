@@ -10,7 +10,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import cells, is_simple, points_near, simple_scene
+from exactpt.scene.families.shapes import cells, is_valid, points_near, valid_scene
 from exactpt.scene.scene import Scene
 
 RADIUS: Final = 2
@@ -38,7 +38,7 @@ def _body(rng: Random, name: str, center: Point) -> Body:
             body = Body(
                 name, points_near(rng, center, RADIUS, size), _motion(rng, center), closed=closed
             )
-        if is_simple(body):
+        if is_valid(body):
             return body
     return Body(name, [center])
 
@@ -58,7 +58,7 @@ def chains_on_grid(rng: Random) -> Scene:
         else:
             body = Body(f"b{i}", ring, Translation(_path(rng, 1), _path(rng, 1)), closed=closed)
         bodies.append(body)
-    return simple_scene(bodies, (0, rng.choice([1, 2, 4])))
+    return valid_scene(bodies, (0, rng.choice([1, 2, 4])))
 
 
 def _paths(rng: Random, ring: list[Point]) -> list[tuple[Polynomial, Polynomial]]:

@@ -16,9 +16,10 @@ from exactpt.scene.families.shapes import (
     cells,
     convex_polygon,
     hull,
+    is_valid,
     poly,
     shape,
-    simple_scene,
+    valid_scene,
     velocity,
 )
 from exactpt.scene.families.simple import star
@@ -71,10 +72,12 @@ def _loop(rng: Random, center: Point, low: int, high: int) -> list[Point]:
     return ring if rng.random() < 0.5 else ring[::-1]
 
 
-def _moved(rng: Random, name: str, parts: Sequence[PartLike], center: Point) -> Body:
-    """The body of some parts with a random motion."""
+def _moved(
+    rng: Random, name: str, parts: Sequence[PartLike], center: Point, *, deforms: bool = True
+) -> Body:
+    """The body of some parts with a random motion; perhaps its vertices move by their own."""
     motion: Motion = velocity(rng, 2)
-    kind = rng.randrange(6)
+    kind = rng.randrange(6 if deforms else 4)
     if kind == 1:
         motion = Rigid(poly(0, QQ(rng.choice([-1, 1]), rng.choice([2, 4]))), pivot=center)
     elif kind == 2:
@@ -109,6 +112,68 @@ def _slow(rng: Random) -> QQ:
     return QQ(rng.randint(-2, 2), 4) if rng.random() < 0.4 else QQ(0)
 
 
+def touching_rings(rng: Random) -> Scene:
+    """Valid bodies whose rings touch each other in points, and small bodies in and around them."""
+    bodies: list[Body] = []
+    for x, y in cells(rng, rng.randint(1, 2), 16):
+        parts = touching_parts(rng, (x, y))
+        bodies.append(_moved(rng, f"body{len(bodies)}", as_parts(parts), (x, y), deforms=False))
+        holes = [hole for _, *holes in parts for hole in holes]
+        for hole in rng.sample(holes, min(len(holes), rng.randint(0, 2))):
+            bodies.append(Body(f"inner{len(bodies)}", [middle_of(hole)], velocity(rng, 2)))
+        if rng.random() < 0.6:
+            stray = convex_polygon(rng, (x + rng.choice([-9, 9]), y), 2, 5)
+            bodies.append(Body(f"stray{len(bodies)}", stray, velocity(rng, 3)))
+    return Scene(bodies, (0, rng.choice([2, 4])))
+
+
+def touching_parts(rng: Random, center: Point) -> list[list[list[Point]]]:
+    """The rings of parts, outlines first, that touch each other, on a grid around a center.
+
+    Random rings are added to a box one by one, each as a hole or as a part, while the body stays
+    valid; most of those that touch no other ring are left out.
+    """
+    x, y = center
+    size = rng.randint(2, 4)
+    parts = [[box(x - size, y - size, 2 * size, 2 * size)]]
+    touches = 0
+    for _ in range(rng.randint(8, 24)):
+        ring = [(x + u, y + v) for u, v in _grid_ring(rng, size)]
+        added = [[*rings] for rings in parts]
+        if rng.random() < 0.3:
+            added.append([ring])
+        else:
+            rng.choice(added).append(ring)
+        body = Body("b", parts=as_parts(added))
+        if not is_valid(body):
+            continue
+        if len(body._ring_touches) > touches or rng.random() < 0.1:
+            parts, touches = added, len(body._ring_touches)
+    return parts
+
+
+def as_parts(parts: Sequence[Sequence[Sequence[Point]]]) -> list[PartLike]:
+    """Parts as a `Body` takes them, from their rings, the outlines first."""
+    return [{"vertices": outline, "holes": holes} for outline, *holes in parts]
+
+
+def middle_of(ring: Sequence[Point]) -> Point:
+    """The mean of the vertices of a ring."""
+    xs, ys = zip(*ring, strict=True)
+    return sum(xs, QQ(0)) / len(xs), sum(ys, QQ(0)) / len(ys)
+
+
+def _grid_ring(rng: Random, size: int) -> list[Point]:
+    """A small ring of integer vertices, at most ``size`` + 1 from the origin in x and y."""
+    u, v = (rng.randint(-size, size) for _ in range(2))
+    kind = rng.randrange(4)
+    if kind == 0:
+        return box(u, v, rng.randint(1, 2), rng.randint(1, 2))
+    if kind == 1:
+        return [(QQ(p), QQ(q)) for p, q in ((u - 1, v), (u, v - 1), (u + 1, v), (u, v + 1))]
+    return convex_polygon(rng, (QQ(u), QQ(v)), 2 if kind == 2 else 1, rng.randint(3, 5))
+
+
 def frames(rng: Random) -> Scene:
     """Boxes with box-shaped holes on a small grid, one in another, in ties and touches."""
     bodies: list[Body] = []
@@ -141,7 +206,7 @@ def walls(rng: Random) -> Scene:
             bodies.append(_moved(rng, name, [outline], c))
         else:
             bodies.append(Body(name, outline, velocity(rng, 3)))
-    return simple_scene(bodies, (0, rng.choice([1, 4])))
+    return valid_scene(bodies, (0, rng.choice([1, 4])))
 
 
 def _toothed(rng: Random, a: Point, b: Point, gap: int) -> list[Point]:

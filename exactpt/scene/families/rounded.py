@@ -8,7 +8,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, convex_polygon, poly, simple_scene, velocity
+from exactpt.scene.families.shapes import box, cells, convex_polygon, poly, valid_scene, velocity
 from exactpt.scene.scene import Scene
 
 TRIPLES = [(3, 4, 5), (5, 12, 13), (8, 15, 17), (1, 0, 1), (0, 2, 2)]
@@ -176,4 +176,4 @@ def rounded_motions(rng: Random) -> Scene:
             fall = Translation([0, rng.randint(-2, 2)], [0, rng.randint(0, 3), -1])
             body = Body(name, shape, fall, closed=closed, radius=radius)
         bodies.append(body)
-    return simple_scene(bodies, (0, 5))
+    return valid_scene(bodies, (0, 5))

@@ -82,8 +82,8 @@ def box(x: QQ | int, y: QQ | int, width: QQ | int = 2, height: QQ | int = 2) -> 
     return [(a, b), (a + width, b), (a + width, b + height), (a, b + height)]
 
 
-def is_simple(body: Body) -> bool:
-    """Return True if a polygon or chain is simple at t = 0, as a scene requires."""
+def is_valid(body: Body) -> bool:
+    """Return True if a body is valid at t = 0, as a scene requires."""
     try:
         Scene([body], (0, 1))
     except InputError:
@@ -91,9 +91,9 @@ def is_simple(body: Body) -> bool:
     return True
 
 
-def simple_scene(bodies: Sequence[Body], time: tuple[int, int]) -> Scene:
-    """The scene of those bodies that are simple."""
-    return Scene([body for body in bodies if is_simple(body)], time)
+def valid_scene(bodies: Sequence[Body], time: tuple[int, int]) -> Scene:
+    """The scene of those bodies that are valid."""
+    return Scene([body for body in bodies if is_valid(body)], time)
 
 
 def in_cells(

@@ -9,7 +9,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, poly, shape, simple_scene, velocity
+from exactpt.scene.families.shapes import box, cells, poly, shape, valid_scene, velocity
 from exactpt.scene.scene import Scene
 
 # Directions around a circle in order, exact and of about equal length.
@@ -36,7 +36,7 @@ def stars(rng: Random) -> Scene:
     for i, c in enumerate(cells(rng, k, 100)):
         outline = star(rng, c, 48, rng.randint(4, 16)) if rng.random() < 0.7 else shape(rng, c, 40)
         bodies.append(Body(f"b{i}", outline, velocity(rng, 50)))
-    return simple_scene(bodies, (0, rng.choice([1, 2, 4])))
+    return valid_scene(bodies, (0, rng.choice([1, 2, 4])))
 
 
 def turning_stars(rng: Random) -> Scene:
@@ -48,7 +48,7 @@ def turning_stars(rng: Random) -> Scene:
         turn = poly(rng.randint(-1, 1), QQ(rng.randint(-4, 4), 4))
         motion: Motion = Rigid(turn, pivot=c, x=move.x, y=move.y) if i % 3 else move
         bodies.append(Body(f"b{i}", star(rng, c, 48, rng.randint(4, 10)), motion))
-    return simple_scene(bodies, (0, rng.choice([1, 2])))
+    return valid_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def blobs(rng: Random) -> Scene:
@@ -66,7 +66,7 @@ def blobs(rng: Random) -> Scene:
             for x, y in outline
         ]
         bodies.append(Body(f"b{i}", vertices, Translation()))
-    return simple_scene(bodies, (0, rng.choice([1, 2])))
+    return valid_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def chains(rng: Random) -> Scene:
@@ -93,7 +93,7 @@ def chains(rng: Random) -> Scene:
                 for x, y in line
             ]
             bodies.append(Body(f"b{i}", paths, move, closed=False))
-    return simple_scene(bodies, (0, rng.choice([1, 2])))
+    return valid_scene(bodies, (0, rng.choice([1, 2])))
 
 
 def combs(rng: Random) -> Scene:
@@ -116,7 +116,7 @@ def combs(rng: Random) -> Scene:
         [0, rng.choice([QQ(-1, 3), QQ(0), QQ(1, 3), QQ(2)])],
     )
     bodies = [Body("lower", lower, Translation()), Body("upper", upper, motion)]
-    return simple_scene(bodies, (0, rng.choice([2, 5])))
+    return valid_scene(bodies, (0, rng.choice([2, 5])))
 
 
 def spirals(rng: Random) -> Scene:
@@ -136,7 +136,7 @@ def spirals(rng: Random) -> Scene:
     other = [(-a + 2, -b + 2) for a, b in points]
     motion = Translation([0, QQ(rng.randint(-2, 2), 4)], [0, QQ(rng.randint(-2, 2), 4)])
     bodies = [Body("still", points, Translation()), Body("moving", other, motion)]
-    return simple_scene(bodies, (0, 8))
+    return valid_scene(bodies, (0, 8))
 
 
 def _thicken(path: list[Point], half: QQ) -> list[Point]:
@@ -186,7 +186,7 @@ def clamps(rng: Random) -> Scene:
     bodies = [Body("jaw", outline, Translation())]
     if rng.random() < 0.5:
         bodies.append(Body("prey", shape(rng, (QQ(300), QQ(190)), 40), velocity(rng, 15)))
-    return simple_scene(bodies, (0, rng.choice([2, 6])))
+    return valid_scene(bodies, (0, rng.choice([2, 6])))
 
 
 _LETTERS = {
@@ -259,4 +259,4 @@ def nested(rng: Random) -> Scene:
         if rng.random() < 0.5:
             outline = [(-y, x) for x, y in outline]
         bodies.append(Body(f"ring{i}", outline, velocity(rng, 1)))
-    return simple_scene(bodies, (0, rng.choice([1, 8])))
+    return valid_scene(bodies, (0, rng.choice([1, 8])))

@@ -56,7 +56,10 @@ REFUSED = {
     "reversed span": (scene(box(), time=("3", "5/2")), "time: the span from 3 to 5/2 is empty"),
     "not simple": (
         scene(box(vertices=[["0", "0"], ["2", "2"], ["2", "0"], ["0", "2"]])),
-        "body 'box': not a simple polygon and so not valid at the start, t = 0: edge 0 from (0, 0) meets",
+        (
+            "body 'box': not a simple polygon and so not valid at the start, t = 0: "
+            "edge 0 from (0, 0) meets"
+        ),
     ),
     "no area": (
         scene(box(vertices=[["0", "0"], ["1", "0"], ["1", "0"]])),

@@ -103,8 +103,15 @@ def test_parts_with_a_common_edge_are_refused_with_what_to_do(tmp_path):
         ("wkt", "MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((1 1, 2 1, 2 2, 1 1)))"),
         (
             "geojson",
-            '{"type": "MultiPolygon", "coordinates": [[[[0, 0], [1, 0], [1, 1], [0, 0]]], '
-            "[[[1, 1], [2, 1], [2, 2], [1, 1]]]]}",
+            json.dumps(
+                {
+                    "type": "MultiPolygon",
+                    "coordinates": [
+                        [[[0, 0], [1, 0], [1, 1], [0, 0]]],
+                        [[[1, 1], [2, 1], [2, 2], [1, 1]]],
+                    ],
+                }
+            ),
         ),
     ],
 )
@@ -119,9 +126,7 @@ def test_parts_that_touch_in_a_point_are_one_body(tmp_path, suffix, text):
 @pytest.mark.parametrize("suffix", ["wkt", "geojson", "svg"])
 def test_a_hole_that_touches_the_outline_survives_a_round_trip(tmp_path, suffix):
     """The hole touches the outline at (4, 0), inside of an edge: the area is 64 - 2 = 62."""
-    notched = Body(
-        "notched", [(0, 0), (8, 0), (8, 8), (0, 8)], holes=[[(4, 0), (5, 2), (3, 2)]]
-    )
+    notched = Body("notched", [(0, 0), (8, 0), (8, 8), (0, 8)], holes=[[(4, 0), (5, 2), (3, 2)]])
     path = tmp_path / f"notched.{suffix}"
     write_shapes(Scene([notched]), path)
     (body,) = read_shapes(path).bodies

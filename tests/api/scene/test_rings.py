@@ -72,7 +72,7 @@ def test_a_motion_is_kept_by_with_motion_and_at():
     [
         ([{"vertices": BOX, "holes": [FAR]}], "a hole is outside of its outline: vertex 4 at"),
         ([{"vertices": BOX, "holes": [HOLE, [(2, 2), (3, 2), (2, 3)]]}], "inside another hole"),
-        ([{"vertices": BOX, "holes": [[(0, 1), (2, 1), (0, 2)]]}], "common piece: edge 3 .* edge 6"),
+        ([{"vertices": BOX, "holes": [[(0, 1), (2, 1), (0, 2)]]}], "piece: edge 3 .* edge 6"),
         ([{"vertices": BOX, "holes": [[(1, 1), (2, 2), (3, 3)]]}], "meets edge"),
         ([{"vertices": BOX, "holes": [HOLE, [(4, 2), (5, 4), (4, 3)]]}], "common piece: edge 5 "),
         ([BOX, HOLE], "a part is inside another part: vertex 4"),

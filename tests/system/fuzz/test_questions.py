@@ -25,7 +25,7 @@ def run(*words):
 
 @pytest.mark.parametrize("question", DEFINED)
 def test_no_difference(question, tmp_path):
-    cases = "12" if question in ("spin", "runs", "path") else "60"
+    cases = "12" if question in ("spin", "runs", "path", "touching-rings") else "60"
     result = run("--question", question, "--cases", cases, "--keep", str(tmp_path / "found"))
 
     assert result.exit_code == 0, result.output

@@ -1,0 +1,417 @@
+"""Bodies whose rings touch: whether they are valid, and what they touch, by cutting them up.
+
+Vertical lines through all vertices and crossings cut the plane into slabs, and edges cut a slab
+into trapezoids. A body is valid if its edges have no common piece, and each trapezoid is outside,
+or in one part and none of its holes, or in one hole of one part or more; and if the trapezoids of
+each part hang together by sides of positive length. The trapezoids of a valid body are simple
+convex bodies: its contacts, distances and intervals are the first, least and joined ones of theirs.
+Nothing here uses points of touches, nor rings in a search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations, pairwise, product
+from random import Random
+from typing import NamedTuple, TypeAlias
+
+from exactpt import (
+    Affine,
+    AlgebraicNumber,
+    Body,
+    InputError,
+    Pieces,
+    Planner,
+    Polynomial,
+    PosePath,
+    Rigid,
+    Scene,
+    Spin,
+    Translation,
+    clearance,
+    contact_intervals,
+    contacts,
+    distance,
+    first_contact,
+    first_contact_enclosed,
+    first_within,
+)
+from exactpt.collision.comparison import contrast
+from exactpt.kernel.numbers import QQ, rational
+from exactpt.motion.motions import Motion
+from exactpt.scene.families.rings import as_parts, middle_of, touching_parts
+from fuzz.questions.all_pairs import first_contact_allpairs
+from fuzz.questions.renewal import first_new_contact
+
+__all__ = [
+    "dissected", "is_valid_by_cells", "random_parts", "touching_pair", "wrong_answer",
+    "wrong_validity",
+]  # fmt: skip
+
+Point: TypeAlias = "tuple[QQ, QQ]"
+Rings: TypeAlias = "Sequence[Sequence[Point]]"
+"""The outline of a part, and its holes."""
+
+ATTEMPTS = 12
+"""Number of random sets of rings in a case."""
+
+
+class _Edge(NamedTuple):
+    """An edge that is not upright, from left to right.
+
+    Attributes:
+        part, ring: the numbers of its part and of its ring there; 0 for the outline.
+        a, b: its ends.
+    """
+
+    part: int
+    ring: int
+    a: Point
+    b: Point
+
+    def height(self, x: QQ) -> QQ:
+        """Return y at x."""
+        (u, v), (p, q) = self.a, self.b
+        return v + (q - v) * (x - u) / (p - u)
+
+
+class _Cell(NamedTuple):
+    """A trapezoid between two edges and two upright lines.
+
+    Attributes:
+        left, right: x of the lines.
+        below, above: the edges.
+        inside: the rings that it is in, by part and ring.
+    """
+
+    left: QQ
+    right: QQ
+    below: _Edge
+    above: _Edge
+    inside: frozenset[tuple[int, int]]
+
+    def side(self, x: QQ) -> tuple[QQ, QQ]:
+        """Return the ends of its side on one of the lines."""
+        return self.below.height(x), self.above.height(x)
+
+    @property
+    def corners(self) -> list[Point]:
+        """The corners, each once."""
+        (a, d), (b, c) = self.side(self.left), self.side(self.right)
+        return list(dict.fromkeys([(self.left, a), (self.right, b), (self.right, c),
+                                   (self.left, d)]))  # fmt: skip
+
+    def owner(self) -> int | None:
+        """Return the part of which it is inside; None if it is outside of all, or none can be."""
+        in_parts = {part for part, _ in self.inside}
+        owners = [part for part in in_parts if self._holes(part) == 0]
+        return owners[0] if len(owners) == 1 else None
+
+    def is_possible(self) -> bool:
+        """Return True unless it is in a hole without its outline, in two holes, or in two parts."""
+        in_parts = {part for part, _ in self.inside}
+        in_holes = [part for part in in_parts if self._holes(part)]
+        if any((part, 0) not in self.inside or self._holes(part) > 1 for part in in_holes):
+            return False
+        return len(in_parts) - len(in_holes) <= 1
+
+    def _holes(self, part: int) -> int:
+        return sum(1 for p, ring in self.inside if p == part and ring)
+
+
+def _crossing(e: _Edge, f: _Edge) -> QQ | None:
+    """Return x of the common point of the lines of two edges; None if they are parallel."""
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = e.a, e.b, f.a, f.b
+    slope = (by - ay) * (dx - cx) - (dy - cy) * (bx - ax)
+    if not slope:
+        return None
+    at_zero_e = ay * (bx - ax) - ax * (by - ay)
+    at_zero_f = cy * (dx - cx) - cx * (dy - cy)
+    return (at_zero_f * (bx - ax) - at_zero_e * (dx - cx)) / slope
+
+
+def _cells(parts: Sequence[Rings]) -> list[_Cell] | None:
+    """Return all bounded cells; None if edges of two rings have a common piece."""
+    edges: list[_Edge] = []
+    for part, rings in enumerate(parts):
+        for ring, points in enumerate(rings):
+            for p, q in zip(points, [*points[1:], points[0]], strict=True):
+                if p[0] != q[0]:
+                    edges.append(_Edge(part, ring, min(p, q), max(p, q)))
+    lines = {p[0] for rings in parts for points in rings for p in points}
+    for e, f in combinations(edges, 2):
+        x = _crossing(e, f)
+        if x is not None and max(e.a[0], f.a[0]) < x < min(e.b[0], f.b[0]):
+            lines.add(x)
+    cells: list[_Cell] = []
+    for left, right in pairwise(sorted(lines)):
+        middle = (left + right) / 2
+        across = [e for e in edges if e.a[0] <= left and right <= e.b[0]]
+        across.sort(key=lambda e: e.height(middle))
+        inside: frozenset[tuple[int, int]] = frozenset()
+        for below, above in pairwise(across):
+            if below.height(middle) == above.height(middle):
+                return None
+            inside ^= {(below.part, below.ring)}
+            cells.append(_Cell(left, right, below, above, inside))
+    return cells
+
+
+def _uprights(parts: Sequence[Rings]) -> list[tuple[int, int, QQ, QQ, QQ]]:
+    """Return the upright edges: part, ring, x, and y of the lower and of the upper end."""
+    return [
+        (part, ring, p[0], min(p[1], q[1]), max(p[1], q[1]))
+        for part, rings in enumerate(parts)
+        for ring, points in enumerate(rings)
+        for p, q in zip(points, [*points[1:], points[0]], strict=True)
+        if p[0] == q[0]
+    ]
+
+
+def is_valid_by_cells(parts: Sequence[Rings]) -> bool:
+    """Return True if simple rings are those of a valid body, by the definition."""
+    cells, uprights = _cells(parts), _uprights(parts)
+    if cells is None:
+        return False
+    for e, f in combinations(uprights, 2):
+        if e[:2] != f[:2] and e[2] == f[2] and max(e[3], f[3]) < min(e[4], f[4]):
+            return False
+    if not all(cell.is_possible() for cell in cells):
+        return False
+    return all(_hangs_together(k, cells, uprights) for k in range(len(parts)))
+
+
+def _hangs_together(
+    part: int, cells: Sequence[_Cell], uprights: Sequence[tuple[int, int, QQ, QQ, QQ]]
+) -> bool:
+    """Return True if the cells of a part are connected by sides of positive length."""
+    own = [cell for cell in cells if cell.owner() == part]
+    left_over = set(range(len(own)))
+    ahead = [left_over.pop()]
+    while ahead:
+        one = own[ahead.pop()]
+        near = [k for k in left_over if _share_a_side(part, one, own[k], uprights)]
+        left_over.difference_update(near)
+        ahead += near
+    return not left_over
+
+
+def _share_a_side(
+    part: int, one: _Cell, other: _Cell, uprights: Sequence[tuple[int, int, QQ, QQ, QQ]]
+) -> bool:
+    """Return True if two cells have more than points in common that are on no upright edge."""
+    if one.right != other.left:
+        if other.right != one.left:
+            return False
+        one, other = other, one
+    x = one.right
+    (low, high), (bottom, top) = one.side(x), other.side(x)
+    low, high = max(low, bottom), min(high, top)
+    walls = sorted((e[3], e[4]) for e in uprights if e[0] == part and e[2] == x)
+    for bottom, top in walls:
+        if low < min(bottom, high):
+            return True
+        low = max(low, top)
+    return low < high
+
+
+def dissected(body: Body) -> list[Body]:
+    """Return simple convex bodies whose union is a body that keeps its shape."""
+    if not body.has_rings:
+        return [body]
+    place = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+    cells = _cells([[[place[i] for i in ring] for ring in rings] for rings in body.parts])
+    assert cells is not None  # noqa: S101 - the body is valid
+    return [
+        Body(f"{body.name}.{k}", cell.corners, body.motion, radius=body.radius)
+        for k, cell in enumerate(cells)
+        if cell.owner() is not None
+    ]
+
+
+def wrong_validity(random: Random) -> tuple[Scene | None, str | None]:
+    """Return the last valid one of random sets of rings, as a scene, and a fault."""
+    scene: Scene | None = None
+    for _ in range(ATTEMPTS):
+        parts = random_parts(random)
+        expected = is_valid_by_cells(parts)
+        try:
+            found = Scene([Body("b", parts=as_parts(parts))], (0, 1))
+        except InputError as error:
+            if expected:
+                return scene, f"valid, but refused: {error}: {parts}"
+            continue
+        scene = found
+        if not expected:
+            return scene, "not valid, but accepted"
+    return scene, None
+
+
+def random_parts(random: Random) -> list[list[list[Point]]]:
+    """Return the rings of a valid body; mostly with one ring more, as a part or as a hole."""
+    parts = touching_parts(random, (QQ(0), QQ(0)))
+    kind = random.randrange(3)
+    if kind == 0:
+        return parts
+    more = touching_parts(random, (QQ(random.randint(-2, 2)), QQ(random.randint(-2, 2))))
+    ring = random.choice([ring for rings in more for ring in rings])
+    if kind == 1:
+        return [*parts, [ring]]
+    random.choice(parts).append(ring)
+    return parts
+
+
+def touching_pair(random: Random) -> Scene:
+    """Two bodies, one or both with rings that touch, in motions that keep their shapes."""
+    while True:
+        parts = touching_parts(random, (QQ(0), QQ(0)))
+        a = Body("a", parts=as_parts(parts), motion=_motion(random), radius=_radius(random))
+        if a._ring_touches:
+            break
+    if random.random() < 0.3:
+        x, y = random.randint(-2, 6), random.randint(-2, 6)
+        others = as_parts(touching_parts(random, (QQ(x), QQ(y))))
+        b = Body("b", parts=others, motion=_motion(random), radius=_radius(random))
+    else:
+        b = Body("b", _thing(random, a), _motion(random), closed=random.random() < 0.7,
+                 radius=_radius(random))  # fmt: skip
+    try:
+        return Scene([a, b], (0, 2))
+    except InputError:  # a chain that is flat, and meets itself as a polygon
+        return touching_pair(random)
+
+
+def _radius(random: Random) -> str:
+    return random.choice(["0", "0", "0", "1/2", "1/3"])
+
+
+def _thing(random: Random, around: Body) -> list[Point]:
+    """Return a point, segment or polygon in a hole, at a touch, or anywhere near a body."""
+    x, y = QQ(random.choice([-6, -5, 5, 6])), QQ(random.randint(-10, 10), 2)
+    kind = random.randrange(5)
+    if kind == 0:
+        x, y = random.choice(around._ring_touches)
+    holes = [hole for _, *holes in around.parts for hole in holes]
+    if kind > 1 and holes:
+        place = around._at(QQ(0))
+        x, y = middle_of([place[i] for i in random.choice(holes)])
+    half = QQ(1, random.choice([4, 6, 7]))
+    shape = random.choice(
+        [
+            [(0, 0)],
+            [(0, 0)],
+            [(0, 0), (1, 0)],
+            [(0, 0), (1, 1)],
+            [(0, 0), (1, 0), (0, 1)],
+            [(0, 0), (1, 0), (1, 1), (0, 1)],
+        ]
+    )
+    return [(x + half * u, y + half * v) for u, v in shape]
+
+
+def _motion(random: Random) -> Motion:
+    u, v = random.randint(-3, 3), random.randint(-3, 3)
+    there = Translation([0, u], [0, v])
+    motions: list[Callable[[], Motion]] = [
+        lambda: Translation([0]),
+        lambda: there,
+        lambda: there,
+        lambda: Translation([0, 2 * u, -u], [0, v]),
+        lambda: Rigid([0, random.choice([QQ(1), QQ(-1), QQ(1, 2)])], pivot=(u, v)),
+        lambda: Affine([[Polynomial([1, "1/2"]), 0], [Polynomial([0, u]), 1]], x=[0, v]),
+        lambda: Affine([[-1, Polynomial([0, 1])], [0, 1]], y=[0, v]),
+        lambda: Pieces([(1, there), (None, Translation([2 * u, -u], [v]))]),
+        lambda: Spin(u or 1, pivot=(v, u), time=(0, 2), error="1/100"),
+        lambda: PosePath([0, 2], [([0, u], [0, v], [0, 1])], error="1/100"),
+    ]
+    return random.choice(motions)()
+
+
+def wrong_answer(random: Random, scene: Scene) -> tuple[str, str | None]:
+    """Return what kind of contact a pair has, and a difference from its pieces."""
+    contact = first_contact(scene)
+    kind = "no contact" if contact is None else contact.kind
+    return kind, next(_differences(random, scene), None)
+
+
+def _differences(random: Random, scene: Scene) -> Iterator[str]:
+    """Yield differences of answers from those of the reference, and from those of the pieces."""
+    a, b = scene.bodies
+    pieces = [Scene(two, scene.time) for two in product(dissected(a), dissected(b))]
+    contact, expected = first_contact(scene), first_contact_allpairs(scene)
+    if what := contrast(expected, contact):
+        yield f"first_contact: {what}: {contact}, not {expected}"
+    times = [met.time for two in pieces if (met := first_contact(two)) is not None]
+    time = None if contact is None else contact.time
+    if time != min(times, default=None):
+        yield f"first_contact: {time}, but that of the pieces {min(times, default=None)}"
+    exact = first_contact(scene, exact_only=True)
+    if what := contrast(contact, exact):
+        yield f"exact_only: {what}: {exact}, not {contact}"
+    planned = Planner([a], scene.time).first_contact(b, b.motion)
+    if what := contrast(contact, planned):
+        yield f"Planner: {what}: {planned}, not {contact}"
+    alone = Scene([b], scene.time)
+    if first_contact(alone) is not None or (contact is not None and contact.kind == "self"):
+        yield "a contact of a body with itself"
+    # The definition of new contacts knows no radii, and takes long for motions of many pieces.
+    if not (scene.has_radius or _is_approximated(a) or _is_approximated(b)):
+        new, new_expected = first_contact(scene, after_start=True), first_new_contact(scene)
+        if (None if new is None else new.time) != (new_expected and new_expected[0]):
+            yield f"after_start: {new}, not {new_expected}"
+    yield from _wrong_intervals(scene, pieces)
+    yield from _wrong_distances(random, scene, pieces)
+    yield from _wrong_bounds(scene, time)
+
+
+def _is_approximated(body: Body) -> bool:
+    """Return True if pieces approximate the motion of a body."""
+    return isinstance(body.motion, (Spin, PosePath))
+
+
+def _wrong_intervals(scene: Scene, pieces: Sequence[Scene]) -> Iterator[str]:
+    found = [(i.start, i.end) for i in contact_intervals(scene, "a", "b")]
+    every = [(i.start, i.end) for two in pieces for i in contacts(two)]
+    joined: list[tuple[AlgebraicNumber, AlgebraicNumber]] = []
+    for start, end in sorted(every):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(joined[-1][1], end)
+        else:
+            joined.append((start, end))
+    if found != joined:
+        yield f"intervals {found}, but those of the pieces {joined}"
+
+
+def _wrong_distances(random: Random, scene: Scene, pieces: Sequence[Scene]) -> Iterator[str]:
+    at = scene.start + (scene.end - scene.start) * QQ(random.randint(0, 12), 12)
+    d = QQ(random.choice([1, 1, 2, 3]), random.choice([1, 2, 3]))
+    squares: list[Fraction] = []
+    times: list[AlgebraicNumber] = []
+    for two in pieces:
+        a, b = (body.name for body in two.bodies)
+        squares.append(distance(two, a, b, at=at).core_squared)
+        time = first_within(two, a, b, d, norm="euclidean")
+        if time is not None:
+            times.append(time)
+    found, least = distance(scene, "a", "b", at=at).core_squared, min(squares)
+    if found != least:
+        yield f"the distance at {at}: {found}, but that of the pieces {least}"
+    within = first_within(scene, "a", "b", d, norm="euclidean")
+    if within != min(times, default=None):
+        yield f"within {d}: {within}, but the pieces {min(times, default=None)}"
+    if scene.has_radius:  # the cores decide, as above
+        return
+    gap = clearance(scene, "a", "b")
+    if gap.squared(at) != least or gap.minimum.squared.compare_rational(rational(least)) > 0:
+        yield f"the clearance at {at}: {gap.squared(at)}, at least {gap.minimum}, but {least}"
+
+
+def _wrong_bounds(scene: Scene, time: AlgebraicNumber | None) -> Iterator[str]:
+    bounds = first_contact_enclosed(scene)
+    if any(map(_is_approximated, scene.bodies)):
+        if time is not None and (bounds is None or bounds.low > time):
+            yield f"enclosed: {bounds}, although the pieces of motion touch at {time}"
+        return
+    if (None if bounds is None else (bounds.low, bounds.high)) != (time and (time, time)):
+        yield f"enclosed: {bounds}, not {time}"
