@@ -162,7 +162,8 @@ class _WithFamilies(click.Command):
         from exactpt.scene.generate import CATALOGUE
 
         headings = ("Convex bodies", "Simple polygons", "Points", "Rounded bodies",
-                 "Bodies with holes and parts", "Bodies that turn at a constant rate")  # fmt: skip
+                 "Bodies with holes and parts", "Bodies whose rings touch",
+                 "Bodies that turn at a constant rate")  # fmt: skip
         for heading, families in zip(headings, CATALOGUE.values(), strict=True):
             with formatter.section(heading):
                 formatter.write_dl(

@@ -43,7 +43,7 @@ def pairs_of(vertices=CORNERS, offsets=(0, 3, 4), pairs=((0, 1),), **options):
         ({"time": [(2, 1)]}, "time[0]: the span from 2.0 to 1.0 is empty"),
         ({"time": (0, 1, 2)}, "time: shape (2,) or (1, 2) is needed, not (3,)"),
         ({"vertices": [(0, 0), (1, 1), (2, 2), (5, 1)]}, "body '0': not a simple polygon"),
-        ({"vertices": [(0, 0), (0, 0), (2, 2), (5, 1)]}, "body '0': vertex 0 and the next one"),
+        ({"vertices": [(0, 0), (0, 0), (2, 2), (5, 1)]}, "body '0': not valid at the start"),
     ],
 )
 def test_pairs(given, line):

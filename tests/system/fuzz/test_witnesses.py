@@ -11,7 +11,7 @@ from folding import every
 from exactpt import AlgebraicNumber, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, generate
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, generate
 from exactpt.scene.written import to_json
 from exactpt.tiling.start import TILINGS
 from fuzz import corpus
@@ -27,7 +27,7 @@ GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "piece
 QUICK = ("reference", "static", "filters")
 
 
-@pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS, *TOUCHING])
 def test_no_witness_objects(family):
     for seed in (1, 2, 3):
         scene = scene_of(family, seed)
@@ -35,7 +35,7 @@ def test_no_witness_objects(family):
             assert failure_of(witness, scene, seed) is None
 
 
-@pytest.mark.parametrize("family", [*ROUNDED, *RINGS])
+@pytest.mark.parametrize("family", [*ROUNDED, *RINGS, *TOUCHING])
 def test_variants_of_rounded_bodies_and_rings_have_the_image_of_the_contact(family):
     """Bug: of discs that just touch, the contact was missed 2^60 from the origin."""
     for seed in range(1, 21):

@@ -115,6 +115,38 @@ def test_a_long_chain_of_holes_divides_when_it_is_closed():
     assert loop(box, *chain[1:-1]) == set()
 
 
+def placed(parts, place):
+    return [[[place(QQ(x), QQ(y)) for x, y in ring] for ring in rings] for rings in parts]
+
+
+PLACES = {
+    "sevenths and thirds": lambda x, y: (x / 7 + y / 3, y / 9 - x / 13),
+    "far": lambda x, y: (x / 3 + 10**20, y / 7 - 10**40),
+    "tiny": lambda x, y: (x / 3**700, y / 7**400),
+    "flat": lambda x, y: (x + 10**30 * y / 3, x + (10**30 / QQ(3) + QQ(1, 10**30)) * y),
+}
+"""Affine maps: validity and touches stay, and no coordinate is a double."""
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_validity_does_not_depend_on_the_place_and_the_numbers(name):
+    random = Random(f"places:{name}")
+    for _ in range(30):
+        parts = random_parts(random)
+        assert accepted(placed(parts, PLACES[name])) == accepted(parts)
+
+
+@pytest.mark.parametrize("tiny", [QQ(1, 10**18), QQ(1, 10**40), QQ(1, 3**700)])
+def test_a_touch_is_told_from_a_gap_and_from_a_crossing_however_small(tiny):
+    def body(y):
+        return Body("b", SQUARE, holes=[[(4, y), (5, 2), (3, 2)]])
+
+    assert Scene([body(0)]).bodies[0]._ring_touches == ((4, 0),)
+    assert Scene([body(tiny)]).bodies[0]._ring_touches == ()
+    with pytest.raises(InputError, match="two rings cross: edge 0"):
+        Scene([body(-tiny)])
+
+
 def accepted(parts):
     given = [{"vertices": outline, "holes": holes} for outline, *holes in parts]
     try:
