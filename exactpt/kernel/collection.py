@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Final
+
+_AT_REST: Final[set[object]] = set()
+"""A token for each context that has switched the collector off and will switch it on again."""
 
 
 @contextmanager
@@ -13,11 +18,28 @@ def collector_at_rest() -> Iterator[None]:
 
     The collector visits all objects again and again while their number grows, though none
     of the new objects is garbage: a third of the time of a tiling's start.
+
+    A child that is forked meanwhile has its collector on: the thread that would switch it on again
+    may not exist there.
     """
-    was_on = gc.isenabled()
+    token = object()
+    if gc.isenabled():
+        _AT_REST.add(token)
     gc.disable()
     try:
         yield
     finally:
-        if was_on:
+        if token in _AT_REST:
             gc.enable()
+            _AT_REST.discard(token)
+
+
+def _switch_on() -> None:
+    """Switch the collector on in a forked child, if a context of the parent would do so."""
+    if _AT_REST:
+        _AT_REST.clear()
+        gc.enable()
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows
+    os.register_at_fork(after_in_child=_switch_on)

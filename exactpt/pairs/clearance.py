@@ -16,10 +16,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, cmp_to_key, lru_cache
+from functools import cmp_to_key, lru_cache
 from itertools import zip_longest
 from typing import Final, NamedTuple, final
 
+from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at, quotient_range, square_root

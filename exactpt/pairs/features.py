@@ -12,9 +12,9 @@ w > 0, and the determinant d = |a b v| of the rows (x, y, w):
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cached_property
 from typing import NamedTuple, final
 
+from exactpt.cached_property import cached_property
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms
 from exactpt.kernel.integer_polynomial import (

@@ -16,12 +16,12 @@ import math
 import time as clock
 from collections.abc import Collection, Iterable
 from fractions import Fraction
-from functools import cached_property
 from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.cached_property import cached_property
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.coincidence import lies_on
 from exactpt.certificates.incidences import touches

@@ -30,13 +30,13 @@ off their places in the middle. |u| is off 1 by less than 4 U and u . x by less 
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from itertools import pairwise
 from typing import Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.cached_property import cached_property
 from exactpt.geometry.boxes import Boxes, Indices, crossing_pairs, grown
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two

@@ -10,9 +10,9 @@ import json
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, final
 
+from exactpt.cached_property import cached_property
 from exactpt.check_apart import WORK, Rejected
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError

@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
-from functools import cached_property
 from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 
+from exactpt.cached_property import cached_property
 from exactpt.check_apart import Interval, planes_of, side_of
 from exactpt.kernel.numbers import QQ, fraction, of_double, rational
 from exactpt.proof.paths import DIRECTIONS, Floats, Items, Moved, Paths, Place, Plane, short

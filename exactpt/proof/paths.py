@@ -5,13 +5,13 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cached_property
 from itertools import chain
 from math import frexp, lcm
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 
+from exactpt.cached_property import cached_property
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from copy import copy
-from functools import cached_property
 from itertools import pairwise
 from typing import final
 
+from exactpt.cached_property import cached_property
 from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId

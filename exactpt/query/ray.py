@@ -29,9 +29,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Final, final
 
+from exactpt.cached_property import cached_property
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, sign

@@ -16,13 +16,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cached_property
 from typing import TypeAlias, final
 
 import numpy as np
 from mypy_extensions import i64
 from numpy.typing import ArrayLike
 
+from exactpt.cached_property import cached_property
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point

@@ -11,11 +11,11 @@ from __future__ import annotations
 from bisect import insort
 from collections.abc import Iterator, Sequence
 from enum import Enum
-from functools import cached_property
 from typing import Final, NamedTuple, TypeAlias, final
 
 from mypy_extensions import i64
 
+from exactpt.cached_property import cached_property
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId

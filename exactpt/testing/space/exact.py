@@ -30,10 +30,10 @@ these are ratios of one component.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cached_property
 from math import lcm
 from typing import Final, TypeAlias, final
 
+from exactpt.cached_property import cached_property
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract, trimmed
