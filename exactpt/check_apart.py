@@ -20,7 +20,10 @@ import hashlib
 import json
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from decimal import MAX_EMAX, MAX_PREC, MIN_EMIN, Context, Decimal
 from fractions import Fraction
 from functools import lru_cache
 from itertools import accumulate, chain, dropwhile, pairwise, zip_longest
@@ -36,15 +39,43 @@ class NoProofError(Exception): pass
 class Rejected(Exception): pass
 class Exhausted(Exception): pass
 class Work:
-    usual = left = 5 * 10 ** 8
-    def start(self, work: int | None, files: int) -> None:
-        self.left = self.usual + 2000 * files if work is None else work
-    def spend(self, products: int) -> None:
-        self.left -= products
-        if self.left < 0: raise Exhausted('not decided: the budget of work is used up (see --work)')
-WORK = Work()
+    usual = 5 * 10 ** 8
+    def __init__(self, left: int) -> None: self.left = left
+WORK = ContextVar[Work | None]('WORK', default=None)
+def spend(products: int) -> None:
+    work = WORK.get()
+    if work is not None:
+        work.left -= products
+        if work.left < 0: raise Exhausted('not decided: the budget of work is used up (see --work)')
+@contextmanager
+def budget(work: int | None, files: int=0) -> Iterator[Work]:
+    of_check = Work(Work.usual + 2000 * files if work is None else work); token = WORK.set(of_check)
+    try: yield of_check
+    finally: WORK.reset(token)
 def require(condition: object, why: str) -> None:
     if not condition: raise Rejected(why)
+PIECE = 640; EXACT = Context(prec=MAX_PREC, Emin=MIN_EMIN, Emax=MAX_EMAX)
+def integer(text: str) -> int:
+    if len(text) <= PIECE: return int(text)
+    if text[0] in '+-': return integer(text[1:]) * (-1 if text[0] == '-' else 1)
+    ends = range(len(text), 0, -PIECE); pieces = [int(text[max(0, end - PIECE):end]) for end in ends]
+    power = 10 ** PIECE
+    while len(pieces) > 1:
+        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=0)
+        pieces = [low + high * power for low, high in above]; power *= power if len(pieces) > 1 else 1
+    return pieces[0]
+def digits(n: int) -> str:
+    if n.bit_length() <= 2000: return str(n)
+    size, raw = (128, abs(n).to_bytes(n.bit_length() // 8 + 1, 'little'))
+    parts = [raw[start:start + size] for start in range(0, len(raw), size)]
+    pieces = [Decimal(int.from_bytes(part, 'little')) for part in parts]; power = Decimal(1 << 8 * size)
+    while len(pieces) > 1:
+        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=Decimal(0))
+        pieces = [EXACT.fma(high, power, low) for low, high in above]
+        power = EXACT.multiply(power, power) if len(pieces) > 1 else power
+    return '-' * (n < 0) + str(pieces[0])
+def written(q: Fraction | int) -> str:
+    below = q.denominator; return digits(q.numerator) if below == 1 else f'{digits(q.numerator)}/{digits(below)}'
 def words(n: int) -> int: return (n.numerator.bit_length() + n.denominator.bit_length() >> 6) + 1
 def most_words(f: Iterable[Any]) -> int: return max(map(words, f), default=1)
 def longest(integers: Iterable[int]) -> int: return words(max(map(abs, integers)))
@@ -59,7 +90,7 @@ class Poly(tuple[Any, ...]):
     def __sub__(self, g: 'Poly') -> 'Poly': return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
     def __mul__(self, g: 'Poly') -> 'Poly':
         if len(self) < 2 or not g: return g if self == (1,) or not g else Poly([a * b for a in self for b in g])
-        if len(self) * len(g) > 8: WORK.spend(len(self) * len(g) * most_words(self) * most_words(g))
+        if len(self) * len(g) > 8: spend(len(self) * len(g) * most_words(self) * most_words(g))
         product = [0] * (len(self) + len(g) - 1)
         for i, a in enumerate(self):
             for j, b in enumerate(g): product[i + j] += a * b
@@ -78,10 +109,10 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
     n, d, k = (t.numerator, t.denominator, max(map(len, polynomials)))
     if k < 2: return [*map(sum, polynomials)]
     if (n | d) >> 64:
-        size = words(d) * (k * words(n) + longest(chain(*polynomials))); WORK.spend(len(polynomials) * k ** 2 * size)
+        size = words(d) * (k * words(n) + longest(chain(*polynomials))); spend(len(polynomials) * k ** 2 * size)
     powers = [n ** i * d ** (k - 1 - i) for i in range(k if n else 1)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
-    WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
+    spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
     p, q, r, s = (turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b))
     if (p > 0 > q or p < 0 < q) and (r > 0 > s or r < 0 < s): return True
@@ -93,7 +124,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
     spans, near = ([], [((x << 256) // w, (y << 256) // w) for x, y, w in points])
     product = longest(chain(*points)) ** 2
     for u, v in edges:
-        WORK.spend(4 * product)
+        spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0): return False
         (x, y), (z, w) = (near[u - first], near[v - first])
         spans.append((min(x, z), max(x, z), min(y, w), max(y, w), u - first, v - first))
@@ -102,16 +133,16 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
         for j in range(k + 1, len(spans)):
             left, _, low, high, c, d = spans[j]
             if left > right: break
-            WORK.spend(200)
+            spend(200)
             if low > top or high < bottom: continue
-            WORK.spend(2000 + 60 * product)
+            spend(2000 + 60 * product)
             if b == c or d == a:
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0: return False
             elif meet(points[a], points[b], points[c], points[d]): return False
     return True
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
-    WORK.spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
+    spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
     above, odd = ([q[1] * p[2] > p[1] * q[2] for q in ring], False)
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
@@ -127,13 +158,14 @@ def number(data: Json) -> Fraction:
     need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, 'not a number:', data); return rational(data)
 @lru_cache(1000)
 def rational(data: str) -> Fraction:
-    if data.removeprefix('-').isdecimal() and data.isascii() and (len(data) <= MAX_DIGITS): return Fraction(int(data))
+    if data.removeprefix('-').isdecimal() and data.isascii() and (len(data) <= MAX_DIGITS):
+        return Fraction(integer(data))
     match = NUMBER.fullmatch(data); minus, units, under, decimals, exponent = match.groups('') if match else [''] * 5
     need(units or decimals, 'not a number:', data); need(not under or under.strip('0'), 'a denominator is zero:', data)
-    power, n = (int(exponent or 0), int(minus + units + decimals))
+    power, n = (int(exponent or 0), integer(minus + units + decimals))
     need(abs(power) <= 100000, 'an exponent beyond 100,000:', data); power = power - len(decimals) if n else 0
     is_whole = power >= 0 and (not under)
-    q = Fraction(n * 10 ** power) if is_whole else Fraction(n, int(under or 10 ** (-power)))
+    q = Fraction(n * 10 ** power) if is_whole else Fraction(n, integer(under) if under else 10 ** (-power))
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
 def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> Json:
@@ -171,7 +203,7 @@ class Motion:
         self.columns = [*zip_longest(*self.form, fillvalue=0)]
         self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
     def track(self, rows: Rows) -> Track:
-        WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
+        spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
         xs, ys, ws = ([0] * (len(self.columns) + len(rows) - 1) for _ in 'xyw')
         for i, (p, q, r) in enumerate(rows):
             for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
@@ -179,7 +211,7 @@ class Motion:
         m = gcd(*xs, *ys, *ws); x, y, w = [Poly([k // m for k in f]) for f in (xs, ys, ws)]; return (x, y, w)
 def cleared(*given: Poly) -> tuple[Poly, ...]:
     ratios = [[q.as_integer_ratio() for q in f] for f in given]; m = lcm(*[d for f in ratios for _, d in f])
-    WORK.spend(words(m) ** 2 * sum(map(len, given)))
+    spend(words(m) ** 2 * sum(map(len, given)))
     return (*[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m]))
 class Body:
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
@@ -226,7 +258,7 @@ class Body:
             u, v = (values(before.form, t), values(after.form, t))
             if [c * v[6] for c in u] != [c * u[6] for c in v]:
                 same = are_same(self.places(t, before), self.places(t, after))
-                need(same, f'{self.name!a} jumps at t = {t}')
+                need(same, f'{self.name!a:.200} jumps at t = {written(t):.200}')
         self.spin = spin_of(given['spin']) if 'spin' in given else None
         self.path = path_of(given['path']) if 'path' in given else None
     def rows(self, i: int, t: Fraction) -> Rows:
@@ -240,12 +272,12 @@ class Body:
         return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
     def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
         motion = motion or self.motions[bisect_right(self.ends, t)]
-        a, b, c, d, e, f, w = form = values(motion.form, t); WORK.spend(self.size * (1000 + 30 * longest(form)))
+        a, b, c, d, e, f, w = form = values(motion.form, t); spend(self.size * (1000 + 30 * longest(form)))
         shape = [self.rows(i, t) for i in range(self.size)] if self.frames else self.shape
         at = [k[0] if len(k) < 2 else values([*map(Poly, zip(*k, strict=True))], t) for k in shape]
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in at]
     def check_simple(self, places: Sequence[Whole]) -> None:
-        need(is_simple(places, self.edges, self.first), f'{self.name!a} is not simple at the start')
+        need(is_simple(places, self.edges, self.first), f'{self.name!a:.200} is not simple at the start')
         if len(self.rings) == 1: return
         outlines = {ring: [places[v - self.first] for v in ring] for ring, _ in self.rings}
         def is_in(ring: range, other: range) -> bool: return surrounds(outlines[other], outlines[ring][0])
@@ -255,7 +287,7 @@ class Body:
             for other, *others in self.parts:
                 within = other != one and is_in(one, other)
                 wrong |= within and (not any((is_in(one, hole) for hole in others)))
-            need(not wrong, f'{self.name!a}: a hole or part is where none can be')
+            need(not wrong, f'{self.name!a:.200}: a hole or part is where none can be')
     def track(self, i: int, after: Fraction) -> Track:
         key = (i, bisect_right(self.breaks, after))
         if key not in self.tracks:
@@ -383,7 +415,7 @@ def spread(f: Poly, d: int, a: int, b: int, m: int) -> list[int]:
     They are those of (1 - u)^(d - k) u^k in m^d f(t), t = (a (1 - u) + b u) / m, by Horner's rule.
     """
     c = [*f, *[0] * (d + 1 - len(f))]
-    WORK.spend(d * d * most_words((a, b, m)) * (most_words(c) + d * most_words((a, b, m))))
+    spend(d * d * most_words((a, b, m)) * (most_words(c) + d * most_words((a, b, m))))
     g, power = [c[d]], 1
     for j in range(1, d + 1):
         power *= m
@@ -401,7 +433,7 @@ def hull(track: Track, a: int, b: int, m: int) -> Hull:
     (Where a w is not positive no such point exists, but these multiples have that meaning.)
     """
     f, g, h = track
-    WORK.spend(10 + words(a * b * m))
+    spend(10 + words(a * b * m))
     if len(h) == 1 and len(f) < 3 > len(g):
         (x, u), (y, v), n = (*f, 0, 0)[:2], (*g, 0, 0)[:2], h[0]
         return [(x * m + u * t, y * m + v * t, n * t, n * m) for t in (a, b)]
@@ -486,7 +518,7 @@ class Checker:
         for self.line, row in rows[3:-1]:
             some = [self.index(w, self.group) for w in row[1:] if row[0] in ("between", "ignoring")]
             if row[0] == "distance":
-                self.distance = Fraction(row[1])
+                self.distance = rational(row[1])
                 require(self.distance >= 0, "a distance below 0")
             elif not some:
                 self.nodes.append((self.line, row))
@@ -519,15 +551,18 @@ class Checker:
         todo = [(all_items, Interval(self.start, self.until))]
         while todo:
             items, time = todo.pop()
-            WORK.spend(20 * (len(items) + len(self.named)))
+            spend(20 * (len(items) + len(self.named)))
             if not self.count({self.items[i][0] for i in items}):
                 continue
             self.line, (kind, *row) = next(nodes, (self.last[0], ["none"]))
             require(kind != "none", "a node is missing: two bodies are left together")
             if kind == "t":
                 s, e = time.start, time.end
-                q = Fraction(row[0]) if row else (s + e) / 2
-                require(s < q < e, f"{q} is not between {s} and {e}")
+                q = rational(row[0]) if row else (s + e) / 2
+                require(
+                    s < q < e,
+                    f"{written(q):.200} is not between {written(s):.200} and {written(e):.200}",
+                )
                 todo += [(items, Interval(q, e)), (items, Interval(s, q))]
                 continue
             if kind == "c":
@@ -541,14 +576,14 @@ class Checker:
 
     def sides(self, items: list[int], time: Interval, row: list[str]) -> list[int]:
         """-1 for items below a moving line, 1 for those above it by more than the distance; 0."""
-        x, y, c, v = int(row[0]), int(row[1]), rational(row[2]), rational([*row, "0"][3])
+        x, y, c, v = integer(row[0]), integer(row[1]), rational(row[2]), rational([*row, "0"][3])
         require(x or y, "a line without a direction")
         ends = [self.items[i][1:] for i in items]
         hulls = {u: time.hulls.get(u) or time.hull(self.scene, u) for u in {*chain(*ends)}}
         kinds = {self.kind[u] for u in hulls}
         planes = {k: planes_of(x, y, c, v, self.radii[k], self.distance) for k in kinds}
         most = max(words(low[3]) for low, _ in planes.values())
-        WORK.spend(most * sum(map(time.work.__getitem__, hulls)))
+        spend(most * sum(map(time.work.__getitem__, hulls)))
         sides = {u: side_of(hull, *planes[self.kind[u]]) for u, hull in hulls.items()}
         return [sides[u] if sides[u] == sides[w] else 0 for u, w in ends]
 
@@ -562,7 +597,7 @@ class Checker:
             xs = left[body.first : body.first + body.size]
             low, high = bisect_left(firsts, (min(xs),)), bisect_left(firsts, (max(xs) + 1,))
             for _, v, j in firsts[low:high] if body.closed else []:
-                WORK.spend(20 * len(self.named))
+                spend(20 * len(self.named))
                 inside = self.count({i, j}) and self.is_inside(body, at[v], at)
                 require(not inside, f"b{j} has a ring inside b{i} at the start")
 
@@ -573,7 +608,7 @@ class Checker:
 
     def check_contact(self, kind: str, words: list[str]) -> tuple[Fraction, str, list[int]]:
         """Check the last line: the time of a contact, its kind, and the bodies."""
-        scene, times = self.scene, [Fraction(w) for w in words[:-2]]
+        scene, times = self.scene, [*map(rational, words[:-2])]
         s, t = min(times), max(times)
         require(self.start <= s and t <= scene.end, "a time outside of the span")
         if kind == "meet":
@@ -581,20 +616,20 @@ class Checker:
             far = self.distance + scene.bodies[i].radius + scene.bodies[j].radius
             near = are_near([scene.place(v, t) for v in (a, b, c, d)], far)
             require(near, "these are not near each other then")
-            text = f"{self.short(a)} and {self.short(c)} at t = {t}"
+            text = f"{self.short(a)} and {self.short(c)} at t = {written(t)}"
         elif kind == "inside":
             v, j = self.index(words[-2], scene.body_of), self.index(words[-1], scene.bodies)
             i, body = scene.body_of[v], scene.bodies[j]
             at = {u: scene.place(u, t) for u in body.vertices}
             require(self.is_inside(body, scene.place(v, t), at), "it is not inside then")
-            text = f"{self.short(v)} inside b{j} at t = {t}"
+            text = f"{self.short(v)} inside b{j} at t = {written(t)}"
         else:
             v = self.index(words[-2], scene.body_of)
             i, (j, a, b) = scene.body_of[v], self.items[self.index(words[-1], self.items)]
             breaks = {q for k in (i, j) for q in scene.bodies[k].breaks if s < q < t}
             require(times == [s, t] and s < t and not breaks, "not a time of one formula")
             require_passage([scene.track(u, s) for u in (v, a, b)], s, t)
-            text = f"{self.short(v)} through {self.short(a)} in [{s}, {t}]"
+            text = f"{self.short(v)} through {self.short(a)} in [{written(s)}, {written(t)}]"
         require(i != j and self.count({i, j}), "bodies that do not count as a pair")
         return t, text, [i, j]
 
@@ -606,25 +641,26 @@ class Checker:
         """Check everything, and return the statement."""
         self.line, (kind, *row) = self.last
         a, low, first, end = self.start, self.until, self.scene.start, self.scene.end
-        what = f"within {self.distance}" if self.distance else ""
-        rest = [f"[{first}, {a})"] * (first < a)
-        rest += [f"({low}, {end}]"] * (kind == "none" and low < end)
+        what = f"within {written(self.distance)}" if self.distance else ""
+        rest = [f"[{written(first)}, {written(a)})"] * (first < a)
+        rest += [f"({written(low)}, {written(end)}]"] * (kind == "none" and low < end)
         found = kind != "none"
         high, how, bodies = self.check_contact(kind, row) if found else (low, "", [])
         if found and high == a:
             require(low == a and not self.nodes, "there is a contact at the start")
-            text = f"two bodies {what or 'share a point'} at the start t = {a}: {how}"
+            text = f"two bodies {what or 'share a point'} at the start t = {written(a)}: {how}"
         else:
             require(not found or low < high, "a contact before the end of the span")
             self.check_outside()
             self.check_apart()
-            text = f"first {f'time {what}' if what else 'contact'} of two bodies in ({low}, {high}]: {how}"
+            event = f"time {what}" if what else "contact"
+            text = f"first {event} of two bodies in ({written(low)}, {written(high)}]: {how}"
         if not found:
             text = f"no two bodies {f'are {what}' if what else 'share a point'} "
-            text += f"in [{a}, {low}]" if a < low else f"at t = {a}"
+            text += f"in [{written(a)}, {written(low)}]" if a < low else f"at t = {written(a)}"
             text += ", the whole span" * (not rest)
         if rest:
-            text += f"; the span of the scene is [{first}, {end}]: nothing is said of {' and '.join(rest)}"
+            text += f"; the span of the scene is [{written(first)}, {written(end)}]: nothing is said of {' and '.join(rest)}"
         chosen = sorted({*bodies, *self.chosen})
         said = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in chosen)
         names = f" ({said})" if said else ""
@@ -637,32 +673,30 @@ class Checker:
 
 def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Proved:
     """Check a certificate; return its statement. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
-    digits, line, checker = sys.get_int_max_str_digits(), 0, None
-    sys.set_int_max_str_digits(0)  # lengths have bounds of their own
-    WORK.start(work, len(scene_file) + len(certificate))
-    try:
-        size = max(len(scene_file), len(certificate))
-        need(size <= MAX_BYTES, "or the certificate: too many bytes")
-        text, digest = scene_file.decode("utf-8-sig"), hashlib.sha256(scene_file).hexdigest()
-        many = certificate.startswith(b"exactpt-apart-rows 1\n")
-        rows = [] if many else read(certificate)
-        head = f"exactpt-apart-rows 1\nscenes sha256 {digest}\n".encode()
-        if not certificate.startswith(head) if many else rows[1][1][2] != digest:
-            raise NoProofError("the certificate was made for a different scene: the hashes differ")
-        accepted = f"accepted: {digest[:16]} "
-        if many:
-            return check_rows(accepted, text.split("\n"), certificate.decode().split("\n")[2:])
-        scene, line = Scene(text), rows[2][0]
-        checker = Checker(scene, rows)
-        return checker.run(accepted)
-    except UnicodeDecodeError:
-        raise NoProofError("a file is not UTF-8") from None
-    except Rejected as why:
-        where = f"line {checker.line if checker else line}: " if line else ""
-        raise Rejected(f"rejected: {where}{why}") from None
-    finally:
-        sys.set_int_max_str_digits(digits)
-        WORK.left = Work.usual
+    line, checker = 0, None
+    with budget(work, len(scene_file) + len(certificate)):
+        try:
+            size = max(len(scene_file), len(certificate))
+            need(size <= MAX_BYTES, "or the certificate: too many bytes")
+            text, digest = scene_file.decode("utf-8-sig"), hashlib.sha256(scene_file).hexdigest()
+            many = certificate.startswith(b"exactpt-apart-rows 1\n")
+            rows = [] if many else read(certificate)
+            head = f"exactpt-apart-rows 1\nscenes sha256 {digest}\n".encode()
+            if not certificate.startswith(head) if many else rows[1][1][2] != digest:
+                raise NoProofError(
+                    "the certificate was made for a different scene: the hashes differ"
+                )
+            accepted = f"accepted: {digest[:16]} "
+            if many:
+                return check_rows(accepted, text.split("\n"), certificate.decode().split("\n")[2:])
+            scene, line = Scene(text), rows[2][0]
+            checker = Checker(scene, rows)
+            return checker.run(accepted)
+        except UnicodeDecodeError:
+            raise NoProofError("a file is not UTF-8") from None
+        except Rejected as why:
+            where = f"line {checker.line if checker else line}: " if line else ""
+            raise Rejected(f"rejected: {where}{why}") from None
 
 
 def check_rows(accepted: str, scenes: list[str], rows: list[str]) -> Proved:
@@ -702,7 +736,7 @@ def differs(proved: Proved, answer: bytes) -> str:
         low, high = (number(time[k]) for k in ("low", "high"))
         terms = entries(time["polynomial"])
         need(all(re.fullmatch("-?[0-9]+", c) for c in terms), "no polynomial:", terms)
-        f = Poly(map(int, terms))
+        f = Poly(map(integer, terms))
         at_low, at_high = (values([f], t)[0] for t in (low, high))
         if not (low == high and f and at_low == 0) and not (low < high and at_low * at_high < 0):
             raise ValueError("no time")
@@ -735,7 +769,7 @@ def main(arguments: list[str]) -> int:
         if answer and text.startswith(b"exactpt-apart-rows "):
             raise NoProofError("rows have many answers: --expect is for one")
         proved = check(scene, text, None if work is None else int(work))
-        is_up_to = answer or (until and Fraction(until) <= proved.until)
+        is_up_to = answer or (until and rational(until) <= proved.until)
         is_enough = proved.whole or "--partial" in given or (proved.is_of_all and is_up_to)
         require(is_enough, f"rejected: proved is only a part (see --until, --partial): {proved}")
         reason = differs(proved, file_bytes(Path(answer))) if answer else ""
@@ -748,5 +782,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.set_int_max_str_digits(0)
     sys.exit(main(sys.argv[1:]))

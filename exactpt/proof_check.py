@@ -23,7 +23,10 @@ import json
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
+from decimal import MAX_EMAX, MAX_PREC, MIN_EMIN, Context, Decimal
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
 from itertools import accumulate, chain, combinations, dropwhile, pairwise, zip_longest
@@ -52,22 +55,38 @@ class Exhausted(Exception):  # noqa: N818 - no verdict
 
 
 class Work:
-    """The work that is left: products of two words of 64 bits, by estimate."""
+    """The work that is left of one check: products of two words of 64 bits, by estimate."""
 
-    usual = left = 5 * 10**8
+    usual = 5 * 10**8
 
-    def start(self, work: int | None, files: int) -> None:
-        """Set the budget: by default the usual work, and 2,000 for each byte of the files."""
-        self.left = self.usual + 2000 * files if work is None else work
+    def __init__(self, left: int) -> None:
+        self.left = left
+        # What is computed once in each check, so that no other check pays for it.  # own
+        self.turn = lru_cache(100_000)(counted_turn)  # own
+        self.pi_bounds = lru_cache(100)(pi_by_machin)  # own
 
-    def spend(self, products: int) -> None:
-        """Count some work."""
-        self.left -= products
-        if self.left < 0:
+
+WORK = ContextVar[Work | None]("WORK", default=None)  # of this thread's check
+
+
+def spend(products: int) -> None:
+    """Count some work of this check; outside of a check there is no limit."""
+    work = WORK.get()
+    if work is not None:
+        work.left -= products
+        if work.left < 0:
             raise Exhausted("not decided: the budget of work is used up (see --work)")
 
 
-WORK = Work()
+@contextmanager
+def budget(work: int | None, files: int = 0) -> Iterator[Work]:
+    """Set the budget of a check: by default the usual work, and 2,000 for each byte of files."""
+    of_check = Work(Work.usual + 2000 * files if work is None else work)
+    token = WORK.set(of_check)
+    try:
+        yield of_check
+    finally:
+        WORK.reset(token)
 
 
 class Proved(str):
@@ -75,6 +94,7 @@ class Proved(str):
 
     until: Fraction  # the end of the span of the proof
     whole: bool  # whether the statement covers the whole span of the scene
+    left: int  # the work that was not needed
     time: "Time | None"  # of the contact
     incidences: set[Angle]  # (vertex, 0, vertex) or (vertex, 1, first vertex of an edge)
     scene: "Scene"
@@ -90,6 +110,49 @@ def require(condition: object, why: str) -> None:
     """Reject unless the condition holds."""
     if not condition:
         raise Rejected(why)
+
+
+# ---- Long integers, in pieces: Python's limit on digits is one of the process, and stays as it is.
+
+PIECE = 640  # digits; no limit is below
+EXACT = Context(prec=MAX_PREC, Emin=MIN_EMIN, Emax=MAX_EMAX)  # no integer is rounded
+
+
+def integer(text: str) -> int:
+    """Return the integer that a sign and digits denote."""
+    if len(text) <= PIECE:
+        return int(text)
+    if text[0] in "+-":
+        return integer(text[1:]) * (-1 if text[0] == "-" else 1)
+    ends = range(len(text), 0, -PIECE)
+    pieces = [int(text[max(0, end - PIECE) : end]) for end in ends]  # the lowest one first
+    power = 10**PIECE
+    while len(pieces) > 1:  # two pieces become one: of a few large products, not of many small ones
+        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=0)
+        pieces = [low + high * power for low, high in above]
+        power *= power if len(pieces) > 1 else 1
+    return pieces[0]
+
+
+def digits(n: int) -> str:
+    """Return the digits of an integer, after a sign if it is negative."""
+    if n.bit_length() <= 2000:  # less than 640 digits
+        return str(n)
+    size, raw = 128, abs(n).to_bytes(n.bit_length() // 8 + 1, "little")
+    parts = [raw[start : start + size] for start in range(0, len(raw), size)]
+    pieces = [Decimal(int.from_bytes(part, "little")) for part in parts]  # the lowest one first
+    power = Decimal(1 << (8 * size))
+    while len(pieces) > 1:
+        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=Decimal(0))
+        pieces = [EXACT.fma(high, power, low) for low, high in above]
+        power = EXACT.multiply(power, power) if len(pieces) > 1 else power
+    return "-" * (n < 0) + str(pieces[0])
+
+
+def written(q: Fraction | int) -> str:
+    """Return a rational number as it is written in a proof."""
+    below = q.denominator
+    return digits(q.numerator) if below == 1 else f"{digits(q.numerator)}/{digits(below)}"
 
 
 # ---- Polynomials, and their real roots.
@@ -137,7 +200,7 @@ class Poly(tuple[Any, ...]):
         if len(self) < 2 or not g:
             return g if self == (1,) or not g else Poly([a * b for a in self for b in g])
         if len(self) * len(g) > 8:
-            WORK.spend(len(self) * len(g) * most_words(self) * most_words(g))
+            spend(len(self) * len(g) * most_words(self) * most_words(g))
         product = [0] * (len(self) + len(g) - 1)
         for i, a in enumerate(self):
             for j, b in enumerate(g):
@@ -148,11 +211,11 @@ class Poly(tuple[Any, ...]):
         """Return d^k times the value at n / d, with k the number of coefficients; and d^k."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
         if (n | d) >> 64:
-            WORK.spend(len(self) ** 2 * words(d) * (words(n) + most_words(self)))
+            spend(len(self) ** 2 * words(d) * (words(n) + most_words(self)))
         for c in reversed(self):
             total = total * n + c * power
             power *= d
-        WORK.spend(len(self) * words(total))
+        spend(len(self) * words(total))
         return total * d, power
 
     def value(self, t: Fraction) -> Fraction:
@@ -162,7 +225,7 @@ class Poly(tuple[Any, ...]):
     def along(self, a: Fraction, b: Fraction) -> "Poly":
         """Return the polynomial in s whose value is that of this one at the time a + (b - a) s."""
         f, n = Poly(), len(self)
-        WORK.spend(n * n * (300 + 2 * (most_words(self) + n * most_words((a, b))) ** 2))
+        spend(n * n * (300 + 2 * (most_words(self) + n * most_words((a, b))) ** 2))
         for c in reversed(self):
             f = f * Poly([a, b - a]) + Poly([c])
         return f
@@ -175,7 +238,7 @@ class Poly(tuple[Any, ...]):
         """Return the largest absolute value of the Bernstein coefficients on [a, b]."""
         f = self.along(a, b)
         n, found = len(f) - 1, Fraction(0)
-        WORK.spend(len(f) ** 2 * (300 + 2 * most_words(f) ** 2))
+        spend(len(f) ** 2 * (300 + 2 * most_words(f) ** 2))
         for j in range(n + 1):
             c = sum((c * comb(j, i) / comb(n, i) for i, c in enumerate(f[: j + 1])), Fraction(0))
             found = max(found, abs(c))
@@ -189,13 +252,13 @@ class Poly(tuple[Any, ...]):
     def primitive(self) -> "Poly":
         """Return the primitive part, with a positive leading coefficient."""
         content = gcd(*self) * (-1 if self[-1] < 0 else 1) if self else 1
-        WORK.spend(len(self) * most_words(self) * words(content))
+        spend(len(self) * most_words(self) * words(content))
         return Poly([c // content for c in self])
 
     def divided(self, g: "Poly") -> tuple["Poly", "Poly"]:
         """Return (q, r) with c f = q g + r, a number c that is not 0, and deg r < deg g."""
         rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
-        WORK.spend(len(quotient) * len(self) * most_words(self) * most_words(g))
+        spend(len(quotient) * len(self) * most_words(self) * most_words(g))
         for i in range(len(self) - len(g), -1, -1):
             top = rest.pop()
             rest, quotient = [g[-1] * c for c in rest], [g[-1] * c for c in quotient]
@@ -210,7 +273,7 @@ class Poly(tuple[Any, ...]):
         if not a or not a[-1]:
             return False
         while len(b) > 1:
-            WORK.spend(len(b) * len(a))
+            spend(len(b) * len(a))
             inverse = pow(b[-1], -1, PRIME)
             for i in range(len(a) - len(b), -1, -1):
                 q = a[i + len(b) - 1] * inverse % PRIME
@@ -240,7 +303,7 @@ class Poly(tuple[Any, ...]):
         Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0.
         """
         d = lcm(low.denominator, high.denominator)
-        WORK.spend(len(self) ** 2 * words(d) * (most_words(self) + len(self) * words(d)))
+        spend(len(self) ** 2 * words(d) * (most_words(self) + len(self) * words(d)))
         start, width, power = int(low * d), int((high - low) * d), 1
         g: list[int] = []  # of s: d^n f(low + (high - low) s)
         for c in reversed(self):
@@ -263,7 +326,8 @@ class Poly(tuple[Any, ...]):
             if count == 1 and self.sign_at(a) and self.sign_at(b):
                 yield Time(a, b, self)
             elif count:
-                require(left, f"the roots of a polynomial between {low} and {high} are too near")
+                ends = f"{written(low):.200} and {written(high):.200}"
+                require(left, f"the roots of a polynomial between {ends} are too near")
                 todo += [(a, middle, left - 1), (middle, b, left - 1)]
                 if self.sign_at(middle) == 0:
                     yield Time(middle)
@@ -320,7 +384,7 @@ class Time:
         return g.sign_at(self.low)
 
     def __str__(self) -> str:
-        return str(self.low) if self.low == self.high else f"{twelve_digits(self)}..."
+        return written(self.low) if self.low == self.high else f"{twelve_digits(self)}..."
 
 
 def twelve_digits(time: Time) -> str:
@@ -403,10 +467,15 @@ def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
     return f + c[0] * (a[1] * b[2] - b[1] * a[2])
 
 
-@lru_cache(100_000)
 def orientation_of(a: Track, b: Track, c: Track) -> Poly:
+    """Return the polynomial of a turn, computed once in a check."""
+    work = WORK.get()
+    return work.turn(a, b, c) if work else counted_turn(a, b, c)
+
+
+def counted_turn(a: Track, b: Track, c: Track) -> Poly:
     """Return the polynomial of a turn; its short products are counted here."""
-    WORK.spend(40 * ((max(map(int.bit_length, chain(*a, *b, *c))) >> 6) + 1) ** 2)
+    spend(40 * ((max(map(int.bit_length, chain(*a, *b, *c))) >> 6) + 1) ** 2)
     return turn(a, b, c)
 
 
@@ -423,10 +492,10 @@ def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
         return [*map(sum, polynomials)]
     if (n | d) >> 64:
         size = words(d) * (k * words(n) + longest(chain(*polynomials)))
-        WORK.spend(len(polynomials) * k**2 * size)
+        spend(len(polynomials) * k**2 * size)
     powers = [n**i * d ** (k - 1 - i) for i in range(k if n else 1)]
     found = [sum(map(mul, f, powers)) for f in polynomials]
-    WORK.spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6)))
+    spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6)))
     return found
 
 
@@ -449,7 +518,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
     spans, near = [], [((x << 256) // w, (y << 256) // w) for x, y, w in points]
     product = longest(chain(*points)) ** 2
     for u, v in edges:
-        WORK.spend(4 * product)
+        spend(4 * product)
         if vector_of(points[u - first], points[v - first]) == (0, 0):
             return False
         (x, y), (z, w) = near[u - first], near[v - first]
@@ -460,10 +529,10 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
             left, _, low, high, c, d = spans[j]
             if left > right:
                 break
-            WORK.spend(200)
+            spend(200)
             if low > top or high < bottom:
                 continue
-            WORK.spend(2000 + 60 * product)
+            spend(2000 + 60 * product)
             if b == c or d == a:  # one of them ends where the other begins
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
                 if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0:
@@ -475,7 +544,7 @@ def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> boo
 
 def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
     """Return True if a ray from p to the right crosses a polygon an odd number of times."""
-    WORK.spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
+    spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
     above, odd = [q[1] * p[2] > p[1] * q[2] for q in ring], False
     for i, a in enumerate(ring):
         if above[i] != above[i - 1]:
@@ -527,16 +596,20 @@ def number(data: Json) -> Fraction:
 def rational(data: str) -> Fraction:
     """Return the rational that a text of few characters denotes; many are there several times."""
     if data.removeprefix("-").isdecimal() and data.isascii() and len(data) <= MAX_DIGITS:
-        return Fraction(int(data))
+        return Fraction(integer(data))
     match = NUMBER.fullmatch(data)
     minus, units, under, decimals, exponent = match.groups("") if match else [""] * 5
     need(units or decimals, "not a number:", data)
     need(not under or under.strip("0"), "a denominator is zero:", data)
-    power, n = int(exponent or 0), int(minus + units + decimals)
+    power, n = int(exponent or 0), integer(minus + units + decimals)
     need(abs(power) <= 100_000, "an exponent beyond 100,000:", data)
     power = power - len(decimals) if n else 0
     is_whole = power >= 0 and not under
-    q = Fraction(n * 10**power) if is_whole else Fraction(n, int(under or 10**-power))
+    q = (
+        Fraction(n * 10**power)
+        if is_whole
+        else Fraction(n, integer(under) if under else 10**-power)
+    )
     bits = max(q.numerator.bit_length(), q.denominator.bit_length())
     need(bits <= MAX_BITS, "more than 10,000 digits:", data)
     return q
@@ -608,7 +681,7 @@ class Motion:
 
     def track(self, rows: Rows) -> Track:
         """Return the track of a vertex."""
-        WORK.spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
+        spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
         xs, ys, ws = ([0] * (len(self.columns) + len(rows) - 1) for _ in "xyw")
         for i, (p, q, r) in enumerate(rows):
             for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
@@ -624,7 +697,7 @@ def cleared(*given: Poly) -> tuple[Poly, ...]:
     """Return polynomials times their common denominator, and this number."""
     ratios = [[q.as_integer_ratio() for q in f] for f in given]
     m = lcm(*[d for f in ratios for _, d in f])
-    WORK.spend(words(m) ** 2 * sum(map(len, given)))
+    spend(words(m) ** 2 * sum(map(len, given)))
     return *[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m])
 
 
@@ -691,7 +764,7 @@ class Body:
             u, v = values(before.form, t), values(after.form, t)
             if [c * v[6] for c in u] != [c * u[6] for c in v]:
                 same = are_same(self.places(t, before), self.places(t, after))
-                need(same, f"{self.name!a} jumps at t = {t}")
+                need(same, f"{self.name!a:.200} jumps at t = {written(t):.200}")
         self.spin = spin_of(given["spin"]) if "spin" in given else None
         self.path = path_of(given["path"]) if "path" in given else None
         right = not self.spin or turns_by(self.ends, self.motions, self.spin)  # own
@@ -716,14 +789,17 @@ class Body:
         """Return where the vertices are at a time, by a motion or the one just after that time."""
         motion = motion or self.motions[bisect_right(self.ends, t)]
         a, b, c, d, e, f, w = form = values(motion.form, t)
-        WORK.spend(self.size * (1000 + 30 * longest(form)))
+        spend(self.size * (1000 + 30 * longest(form)))
         shape = [self.rows(i, t) for i in range(self.size)] if self.frames else self.shape
         at = [k[0] if len(k) < 2 else values([*map(Poly, zip(*k, strict=True))], t) for k in shape]
         return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in at]
 
     def check_simple(self, places: Sequence[Whole]) -> None:
         """Check that edges meet only where joined, and that holes and parts are in place."""
-        need(is_simple(places, self.edges, self.first), f"{self.name!a} is not simple at the start")
+        need(
+            is_simple(places, self.edges, self.first),
+            f"{self.name!a:.200} is not simple at the start",
+        )
         if len(self.rings) == 1:
             return
         outlines = {ring: [places[v - self.first] for v in ring] for ring, _ in self.rings}
@@ -737,7 +813,7 @@ class Body:
             for other, *others in self.parts:
                 within = other != one and is_in(one, other)
                 wrong |= within and not any(is_in(one, hole) for hole in others)
-            need(not wrong, f"{self.name!a}: a hole or part is where none can be")
+            need(not wrong, f"{self.name!a:.200}: a hole or part is where none can be")
 
     def track(self, i: int, after: Fraction) -> Track:
         """Return the track of vertex i just after a time."""
@@ -752,10 +828,10 @@ class Body:
         keeps = self.motions[bisect_right(self.ends, t)].keeps_lengths
         if self.frames:
             (_, p), (_, q) = self.around(t)
-            WORK.spend(self.size * (500 + 8 * most_words(chain(*p, *q)) ** 2))
+            spend(self.size * (500 + 8 * most_words(chain(*p, *q)) ** 2))
             return keeps and len({(c - a, d - b) for (a, b), (c, d) in zip(p, q, strict=True)}) == 1
         (f, g, h), *others = ([*map(Poly, zip(*rows, strict=True))] for rows in self.shape)
-        WORK.spend(self.size * (500 + 8 * most_words(chain(f, g, h)) ** 2))
+        spend(self.size * (500 + 8 * most_words(chain(f, g, h)) ** 2))
         same = all((f * w)[1:] == (x * h)[1:] and (g * w)[1:] == (y * h)[1:] for x, y, w in others)
         return keeps and same
 
@@ -825,7 +901,7 @@ def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], spin: Point) -
 
 def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool:
     """Return True if this shows it of one piece and its span."""
-    WORK.spend(1000 * most_words((omega,)) ** 2)
+    spend(1000 * most_words((omega,)) ** 2)
     (h, turned, _), (a, b) = turn, span
     slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - Poly([omega]) * (ONE + h * h)
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
@@ -905,8 +981,13 @@ def angle_of(direction: Point, bits: int) -> Bounds:
     return 2 * low + quarters * p / 2, 2 * high + quarters * q / 2
 
 
-@lru_cache
 def pi_bounds(bits: int) -> Bounds:
+    """Return bounds of pi, computed once in a check."""
+    work = WORK.get()
+    return work.pi_bounds(bits) if work else pi_by_machin(bits)
+
+
+def pi_by_machin(bits: int) -> Bounds:
     """Return bounds of pi, by Machin's formula."""
     (a, b), (c, d) = (series(Fraction(1, n), bits + 6) for n in (5, 239))
     return 16 * a - 4 * d, 16 * b - 4 * c
@@ -932,7 +1013,7 @@ def series(x: Fraction, bits: int) -> Bounds:
     out is less than 3 when powers are below 1.
     """
     n = bits + 16
-    WORK.spend(100 * n)
+    spend(100 * n)
     power = floor(x * 2**n)
     square = (power * power) >> n
     total, terms = 0, 0
@@ -995,7 +1076,7 @@ class Scene:
             self.known = t, {}
         if v not in self.known[1]:
             x, y, w = self.place(v, t)
-            WORK.spend(200 * most_words((x, y, w)) ** 2)  # uses of it, too
+            spend(200 * most_words((x, y, w)) ** 2)  # uses of it, too
             self.known[1][v] = Fraction(x, w), Fraction(y, w)
         return self.known[1][v]
 
@@ -1123,7 +1204,7 @@ class PlanarMap:
         """Return True if a path joins two vertices; search from both ends in turn."""
         seen, fronts = ({u}, {v}), [{u}, {v}]
         while all(fronts) and seen[0].isdisjoint(seen[1]):
-            WORK.spend(100 * len(fronts[0]) + 100 * len(fronts[1]))
+            spend(100 * len(fronts[0]) + 100 * len(fronts[1]))
             for i in (0, 1):
                 fronts[i] = {y for x in fronts[i] for y in self.out[x]} - seen[i]
                 seen[i].update(fronts[i])
@@ -1133,7 +1214,7 @@ class PlanarMap:
         """Make the faces around changed half-edges anew; return the new faces."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = touched.union(*old)
-        WORK.spend(100 * len(pool))
+        spend(100 * len(pool))
         for d in pool:
             self.face_of.pop(d, None)
         pool, new = {d for d in pool if d in self.after}, set[Face]()
@@ -1189,7 +1270,7 @@ class Checker:
     def check_rows(self, rows: list[tuple[int, list[str]]]) -> Proved:
         """Check the lines of a proof from the third on; return what is proved."""
         self.line, (_, first, last) = rows[0]
-        start, self.end = Fraction(first), Fraction(last)
+        start, self.end = rational(first), rational(last)
         within = start == self.scene.start < self.end <= self.scene.end
         require(within, "the time span is not one of the scene")
         for body in self.scene.bodies:
@@ -1233,11 +1314,12 @@ class Checker:
         """Return what is proved."""
         start, end, last, named = self.scene.start, self.end, self.scene.end, set[int]()
         if time is None:
-            rest = f"span of the scene is [{start}, {last}]: nothing is said of ({end}, {last}]"
-            text = f"no contact in [{start}, {end}]"
+            a, b, c = map(written, (start, end, last))
+            rest = f"span of the scene is [{a}, {c}]: nothing is said of ({b}, {c}]"
+            text = f"no contact in [{a}, {b}]"
             text += f"; the {rest}" if end < last else ", the whole span"
         elif not found:
-            text, named = f"contact at the start t = {start}: {what}", self.named
+            text, named = f"contact at the start t = {written(start)}: {what}", self.named
         else:
             on = "at", "on edge"
             shown = [f"{self.short(u)} {on[k]} {self.short(v)}" for u, k, v in sorted(found)]
@@ -1255,15 +1337,17 @@ class Checker:
 
     def read_time(self, words: list[str]) -> Time:
         """Return the time that these words denote."""
-        low, high = Fraction(words[0]), Fraction(words[1])
+        low, high = rational(words[0]), rational(words[1])
         if words[2:3] == ["@"]:
             v = self.vertices(words[3:])
             breaks = self.scene.breaks_in(v, low, high) - {high}
-            require(not breaks, f"a breakpoint is between {low} and {high}")
+            require(
+                not breaks, f"a breakpoint is between {written(low):.200} and {written(high):.200}"
+            )
             p = [self.scene.track(u, low) for u in v]
             f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
         else:
-            f = Poly(map(int, words[2:]))
+            f = Poly(map(integer, words[2:]))
         self.name = f.primitive()
         if low == high and (len(words) == 2 or (f and f.sign_at(low) == 0)):
             return Time(low)
@@ -1272,7 +1356,10 @@ class Checker:
             time = Time(low, high, f)
         else:
             roots = list(f.square_free().roots(low, high, DEPTH)) if low < high else []
-            require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
+            require(
+                len(roots) == 1,
+                f"{len(roots)} roots between {written(low):.200} and {written(high):.200}, not one",
+            )
             time = roots[0]
         while (time.high - time.low) * 2**20 > self.end - self.scene.start:
             time.refine()  # for speed alone
@@ -1377,7 +1464,7 @@ class Checker:
             turn = orientation_of(*tracks).sign_at(sample)
             along = dot_of(*tracks).sign_at(sample) if turn == 0 else 0
             straight = along > 0 if u == w else along < 0
-            require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {sample}")
+            require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {written(sample):.200}")
             kind = CONVEX if turn > 0 else REFLEX if turn < 0 else FULL if u == w else FLAT
             self.life[v, w].kind = kind
         for f in self.new_faces:
@@ -1419,7 +1506,7 @@ class Checker:
     def direction(self, u: int, v: int, t: Fraction) -> Point:
         """Return the direction from u to v at a rational time."""
         (a, b), (c, d) = self.scene.at(u, t), self.scene.at(v, t)
-        WORK.spend(4000 + 50 * most_words((a, c)) ** 2)
+        spend(4000 + 50 * most_words((a, c)) ** 2)
         return c - a, d - b
 
     def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
@@ -1460,12 +1547,12 @@ class Checker:
                 u, on, v = min(found, key=lambda touch: (touch[1], touch))
                 what = f"vertices {u} and {v} coincide"
                 what = f"vertex {u} is on the edge {v} {self.after_on_ring(v)}" if on else what
-                raise Rejected(f"{what} at t = {time}")
+                raise Rejected(f"{what} at t = {time!s:.200}")
 
     def incidences(self, darts: set[Dart], time: Time) -> set[Angle]:
         """Return all incidences at a time among the vertices and body edges of half-edges."""
         tracks = self.scene.tracks_at({v for v, _ in darts}, time)
-        WORK.spend(len(tracks) * (2000 + 160 * most_words(chain(*chain(*tracks.values()))) ** 2))
+        spend(len(tracks) * (2000 + 160 * most_words(chain(*chain(*tracks.values()))) ** 2))
 
         def order(u: int, v: int) -> int:
             x, y = vector_of(tracks[v], tracks[u])
@@ -1519,7 +1606,7 @@ class Checker:
             there = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2 == 1
             p = place[v[0]]
             there |= any(meet(p, p, *(place[u] for u in e)) for e in other.edges)
-        require(there, f"there is no such contact at t = {time}: {' '.join(row)}")
+        require(there, f"there is no such contact at t = {time!s:.200}: {' '.join(row):.200}")
         self.named = {scene.body_of[v[0]], scene.body_of[v[-1]]}
         if kind == "vertex inside":
             return f"{self.short(v[0])} in the inside of b{scene.body_of[v[-1]]}"
@@ -1533,10 +1620,12 @@ class Checker:
 
 def root_in_words(row: list[str], time: Time, f: Poly) -> str:
     """Return a time as a proof has it: a number, or a root of f in an interval."""
-    low, high = Fraction(row[0]), Fraction(row[1])
+    low, high = rational(row[0]), rational(row[1])
     if low == high:
-        return str(low)
-    return f"{twelve_digits(time)}..., the root of {' '.join(map(str, f))} in [{low}, {high}]"
+        return written(low)
+    f_in_words = " ".join(map(written, f))
+    span = f"[{written(low)}, {written(high)}]"
+    return f"{twelve_digits(time)}..., the root of {f_in_words} in {span}"
 
 
 # ---- The file.
@@ -1599,27 +1688,26 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
 
 def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Proved:
     """Check a proof; return what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
-    digits, checker = sys.get_int_max_str_digits(), None
-    sys.set_int_max_str_digits(0)  # lengths have bounds of their own
-    WORK.start(work, len(scene_file) + len(proof_file))
-    orientation_of.cache_clear()
-    try:
-        need(max(len(scene_file), len(proof_file)) <= MAX_BYTES, "or the proof: too many bytes")
-        rows, text = read(proof_file), scene_file.decode("utf-8-sig")
-        digest = hashlib.sha256(scene_file).hexdigest()
-        if rows[1][1][2] != digest:
-            raise NoProofError("the proof is of another scene: the hash of its file is another one")
-        scene = Scene(text)
-        need(not any(body.radius for body in scene.bodies), "a radius: no proof is possible")
-        checker = Checker(scene)
-        proved = checker.check_rows(rows[2:])
+    checker = None
+    with budget(work, len(scene_file) + len(proof_file)) as spent:
+        try:
+            need(max(len(scene_file), len(proof_file)) <= MAX_BYTES, "or the proof: too many bytes")
+            rows, text = read(proof_file), scene_file.decode("utf-8-sig")
+            digest = hashlib.sha256(scene_file).hexdigest()
+            if rows[1][1][2] != digest:
+                raise NoProofError(
+                    "the proof is of another scene: the hash of its file is another one"
+                )
+            scene = Scene(text)
+            need(not any(body.radius for body in scene.bodies), "a radius: no proof is possible")
+            checker = Checker(scene)
+            proved = checker.check_rows(rows[2:])
+        except UnicodeDecodeError:
+            raise NoProofError("a file is not UTF-8") from None
+        except Rejected as verdict:
+            raise Rejected(f"rejected: line {checker.line if checker else 0}: {verdict}") from None
+        proved.left = spent.left
         return proved.within(f"accepted: {digest[:16]} {proved}")
-    except UnicodeDecodeError:
-        raise NoProofError("a file is not UTF-8") from None
-    except Rejected as verdict:
-        raise Rejected(f"rejected: line {checker.line if checker else 0}: {verdict}") from None
-    finally:
-        sys.set_int_max_str_digits(digits)
 
 
 # ---- What is wanted.
@@ -1647,8 +1735,10 @@ def judge(proved: Proved, given: dict[str, str], answer: bytes) -> None:
         reason = differs(proved, answer)
         require(not reason, f"rejected: {reason} {given['--expect']!a}; proved is: {proved}")
     elif not proved.whole and "--partial" not in given:
-        enough = "--until" in given and Fraction(given["--until"]) <= proved.until
-        require(enough, f"rejected: proved up to {proved.until} only (see --until, --partial)")
+        enough = "--until" in given and rational(given["--until"]) <= proved.until
+        require(
+            enough, f"rejected: proved up to {written(proved.until)} only (see --until, --partial)"
+        )
 
 
 def differs(proved: Proved, answer: bytes) -> str:
@@ -1661,7 +1751,7 @@ def differs(proved: Proved, answer: bytes) -> str:
             return "" if is_same else "no contact is the answer of"
         terms = entries(contact["time"]["polynomial"])
         need(all(re.fullmatch("-?[0-9]+", c) for c in terms), "no polynomial:", terms)
-        f = Poly(map(int, terms))
+        f = Poly(map(integer, terms))
         low, high = (number(contact["time"][k]) for k in ("low", "high"))
         need(f and (low != high or not f.sign_at(low)), "no time:", contact["time"])
         bodies, is_start = {b.name: b for b in proved.scene.bodies}, contact["kind"] == "initial"
@@ -1729,11 +1819,11 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
             proved = check(scene, proof, work)
         except Rejected as verdict:
             raise Rejected(f"{verdict} (part {k})") from None
-        work, here = work and WORK.left, proved.scene
+        work, here = work and proved.left, proved.scene
         start = here.start if last is None else start
         seams += [] if last is None else seam(last, proved, k)
         a, b, before = (hashlib.sha256(x).hexdigest() for x in (scene, proof, chain[-1].encode()))
-        chain.append(f"{k} {a} {b} {here.start} {proved.until} {before}")
+        chain.append(f"{k} {a} {b} {written(here.start)} {written(proved.until)} {before}")
         last = proved
     manifest = folder / "run.chain"
     if manifest.exists():
@@ -1742,8 +1832,8 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
     assert last is not None  # noqa: S101
     digest, said = hashlib.sha256(chain[-1].encode()).hexdigest()[:16], last.split(" ", 2)[2]
     if last.time is None:
-        said = said.replace(f"[{last.scene.start}, ", f"[{start}, ", 1)
-    text = f"accepted: {digest} along {len(numbers)} parts from t = {start}: {said}"
+        said = said.replace(f"[{written(last.scene.start)}, ", f"[{written(start)}, ", 1)
+    text = f"accepted: {digest} along {len(numbers)} parts from t = {written(start)}: {said}"
     return last.within("; ".join([text, *seams]))
 
 
@@ -1751,17 +1841,20 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
     """Check that a part begins where the last one ends; return which bodies come and go there."""
     t = after.scene.start
     require(before.time is None, f"rejected: part {k - 1} ends with a contact")
-    require(before.until == t, f"rejected: part {k} begins at {t}, not at {before.until}")
+    require(
+        before.until == t,
+        f"rejected: part {k} begins at {written(t):.200}, not at {written(before.until):.200}",
+    )
     old, new = ({body.name: body for body in p.scene.bodies} for p in (before, after))
     for name, a, b in [(name, old[name], new[name]) for name in new if name in old]:
         one, other = ([(r.start - x.first, h) for r, h in x.rings] for x in (a, b))
         same = one == other and a.closed == b.closed and a.size == b.size
         same = same and are_same(a.places(t), b.places(t))
-        require(same, f"rejected: part {k}: {name!a} is not what or where it was")
+        require(same, f"rejected: part {k}: {name!a:.200} is not what or where it was")
     come, go = [n for n in new if n not in old], [n for n in old if n not in new]
     changes = ("enters", come), ("leaves", go)
     words = [f"{word} {', '.join(map(ascii, names))}" for word, names in changes if names]
-    return [f"at t = {t} {' and '.join(words)}"] if words else []
+    return [f"at t = {written(t)} {' and '.join(words)}"] if words else []
 
 
 def say(text: str, code: int, file: TextIO) -> int:
@@ -1772,5 +1865,4 @@ def say(text: str, code: int, file: TextIO) -> int:
 
 
 if __name__ == "__main__":
-    sys.set_int_max_str_digits(0)
     sys.exit(main(sys.argv[1:]))

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.cached_property import cached_property
-from exactpt.check_apart import WORK, Rejected
+from exactpt.check_apart import Rejected
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
@@ -224,7 +224,6 @@ class _Certificate:
             ) from None
 
     def _text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
-        WORK.start(10**18, 0)  # of a checker, not of this search
         last, until = ["none"], end
         if found is not None:
             last, until = self._last(found, start)

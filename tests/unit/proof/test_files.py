@@ -298,5 +298,4 @@ def test_bug_three_roots_in_a_row_are_three_times():
         f = f * proof_check.Poly([-root.numerator, root.denominator])
     a = proof_check.Time(middle - 2 * unit, middle - unit / 4, f)
     b = proof_check.Time(middle + unit / 4, middle + 2 * unit, f)
-    proof_check.WORK.start(None, 0)
     assert roots[0] < proof_check.between(a, b, Fraction(0), unit) < roots[2]

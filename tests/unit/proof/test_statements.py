@@ -220,25 +220,21 @@ def test_bug_places_of_long_numbers_are_counted():
     for closed in (True, False):
         body = Body("a", [(k, k * k) for k in range(60)], Translation([long]), closed=closed)
         scene = json.dumps(Scene([body], (0, 1)).to_json())
-        proof_check.WORK.start(20_000_000, 0)
-        with pytest.raises(proof_check.Exhausted):
+        with proof_check.budget(20_000_000), pytest.raises(proof_check.Exhausted):
             proof_check.Scene(scene)
 
 
 def test_bug_short_products_of_long_numbers_are_counted():
     track = tuple(proof_check.Poly([n]) for n in (3**9000, 5**9000, 1))
     other = tuple(proof_check.Poly([n]) for n in (7**9000, 2**9000, 1))
-    proof_check.WORK.start(1_000_000, 0)
-    proof_check.orientation_of.cache_clear()
-    with pytest.raises(proof_check.Exhausted):
+    with proof_check.budget(1_000_000), pytest.raises(proof_check.Exhausted):
         proof_check.orientation_of(track, other, track)
 
 
 def test_bug_a_long_rate_of_a_spin_is_counted():
     """2,000 such pieces took 16 seconds before the budget was used up."""
     turn = (proof_check.Poly([0]), (1, 0), None)
-    proof_check.WORK.start(100_000_000, 0)
-    with pytest.raises(proof_check.Exhausted):
+    with proof_check.budget(100_000_000), pytest.raises(proof_check.Exhausted):
         proof_check.turns_in(
             turn, (Fraction(0), Fraction(1)), Fraction(1, 3**20000), Fraction(1, 3)
         )
@@ -254,7 +250,6 @@ def test_bug_frames_that_are_translated_need_no_tracks_of_all_vertices(monkeypat
         "exactpt": 1, "time": ["0", "49"],
         "bodies": [{"name": "a", "closed": False, "keyframes": frames}],
     })  # fmt: skip
-    proof_check.WORK.start(None, 0)
     scene, made = proof_check.Scene(text), []
     cleared = proof_check.cleared
     monkeypatch.setattr(proof_check, "cleared", lambda *f: made.append(f) or cleared(*f))
@@ -267,7 +262,6 @@ def test_bug_frames_that_are_translated_need_no_tracks_of_all_vertices(monkeypat
 def test_frames_that_change_a_length_are_not_rigid(last, is_rigid):
     corners = [[["0", "0"], ["2", "0"], ["0", "2"]], [["1", "0"], ["3", "0"], ["1", last]]]
     frames = [{"t": str(t), "vertices": v} for t, v in enumerate(corners)]
-    proof_check.WORK.start(None, 0)
     scene = proof_check.Scene(json.dumps(
         {"exactpt": 1, "time": ["0", "1"], "bodies": [{"name": "a", "keyframes": frames}]}
     ))  # fmt: skip
