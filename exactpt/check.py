@@ -14,6 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import final
 
+from exactpt.brief import record_in_brief
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.driver import EVENTS, Driver, Observer
@@ -56,6 +57,9 @@ class Report:
     proof: bool | None = None
     pairs_agree: bool | None = None
     failures: list[str] = field(default_factory=list)
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def ok(self) -> bool:

@@ -12,6 +12,7 @@ from typing import Final, NamedTuple, TypeAlias
 
 from benchmarks.collision_set.places import Corners, Place, cross, mean, minus, plus, shifted, times
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
 
 FINE: Final = 40
 """Number of binary places of a hair."""
@@ -186,7 +187,7 @@ def make_passage(family: str, number: int) -> Passage:
         InputError: if there is no such family.
     """
     if family not in FAMILIES:
-        raise InputError(f"no family {family!r}; there are: {', '.join(FAMILIES)}")
+        raise InputError(f"no family {shorten(family)}; there are: {', '.join(FAMILIES)}")
     rng = Random(f"{family}:{number}")
     while True:
         passage = _disguised(rng, FAMILIES[family](rng))

@@ -17,6 +17,7 @@ from typing import Final, NamedTuple
 from benchmarks.collision_set import passages
 from benchmarks.collision_set.about import LICENSE, about
 from benchmarks.collision_set.parts import Part, Written, write_part
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.testing import families
 
@@ -38,6 +39,9 @@ class Summary(NamedTuple):
 
     files: int
     manifest: str
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 def planned(questions: int = PASSAGES, scenes: int = SCENES) -> list[Part]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from exactpt.arrays.incidence_times import Span
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true
+from exactpt.kernel.numbers import shorten
 
 
 class Spans(NamedTuple):
@@ -60,7 +61,7 @@ def read_spans(time: ArrayLike, count: int) -> Spans:
     if wrong is not None:
         a, b = given[wrong].tolist()
         where = f"time{list(wrong)}" if wrong else "time"
-        raise InputError(f"{where}: the span from {a!r} to {b!r} is empty")
+        raise InputError(f"{where}: the span from {shorten(a)} to {shorten(b)} is empty")
     shifted = bool(given[..., 0].any())
     with np.errstate(all="ignore"):
         low = high = given[..., 1] - given[..., 0]

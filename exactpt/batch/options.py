@@ -6,6 +6,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Final, final
 
+from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
@@ -53,6 +54,9 @@ class Options:
     max_seconds: float | None = None
     max_memory: int | None = None
     max_bytes: int = MAX_BYTES
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     def __post_init__(self) -> None:
         for value in (self.distance, self.until, self.since):

@@ -13,6 +13,7 @@ from exactpt.batch.journal import Journal
 from exactpt.batch.lines import Lines, Source, size_of
 from exactpt.batch.options import Options
 from exactpt.batch.parquet import Rows, table
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.files import writing
 from exactpt.workers.cluster import results_on
@@ -37,6 +38,9 @@ class Summary(NamedTuple):
     scenes: int
     failures: int
     first: str
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 def run(

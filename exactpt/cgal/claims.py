@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias, cast, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
@@ -37,6 +38,9 @@ class BodyShape(NamedTuple):
     clockwise: bool | None = None
     parts: Sequence[Sequence[Sequence[int]]] = ()
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
     @classmethod
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
         """Return the shapes of all bodies, with their constant orientation."""
@@ -62,6 +66,9 @@ class IsolatedRoot(NamedTuple):
     polynomial: Sequence[int]
     low: QQ
     high: QQ
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @classmethod
     def of_json(cls, time: Mapping[str, object]) -> IsolatedRoot:
@@ -91,6 +98,9 @@ class Signs(NamedTuple):
     at: int
     after: int
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -107,9 +117,12 @@ class Verdict:
     reason: str = ""
     stats: Mapping[str, int] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 def exactly(value: object) -> QQ:
     """Return the rational value; floats are refused, since they indicate earlier rounding."""
     if isinstance(value, float):
-        raise InputError(f"not an exact number: {value!r}")
+        raise InputError(f"not an exact number: {shorten(value)}")
     return rational(cast("Rational", value))

@@ -16,7 +16,7 @@ from exactpt.cgal.build import PACKAGES
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
 from exactpt.cgal.requests import point_words, polynomial_words, root_words, tiling_request
 from exactpt.errors import AuditError, InputError
-from exactpt.kernel.numbers import Rational, rational
+from exactpt.kernel.numbers import Rational, rational, shorten
 
 _VARIABLE: Final = "EXACTPT_CGAL_CHECK"
 _GREETING: Final = "exactpt-check 1"
@@ -38,7 +38,7 @@ def find_program() -> Path:
     named = os.environ.get(_VARIABLE)
     if named:
         if not os.access(named, os.X_OK) or Path(named).is_dir():
-            raise InputError(f"{_VARIABLE} names no program: {named!r}")
+            raise InputError(f"{_VARIABLE} names no program: {shorten(named, 200)}")
         return Path(named)
     built = Path(__file__).parents[2] / "cgal_check" / "build" / "cgal_check"
     if os.access(built, os.X_OK):
@@ -64,7 +64,8 @@ def recognise(program: Path) -> None:
 
 def _another(program: Path, message: str) -> InputError:
     return InputError(
-        f"{str(program)!r} is not cgal_check, it does not speak {_GREETING!r}: {message}"
+        f"{shorten(str(program), 200)} is not cgal_check, "
+        f"it does not speak {_GREETING!r}: {message}"
     )
 
 
@@ -237,7 +238,8 @@ class CgalCheck:
             )
         except OSError as error:
             self.close()
-            raise InputError(f"cannot start {str(self.program)!r}: {error.strerror}") from None
+            program = shorten(str(self.program), 200)
+            raise InputError(f"cannot start {program}: {error.strerror}") from None
         try:
             greeting = self._ask(_GREETING + "\n")
         except (AuditError, InputError) as error:

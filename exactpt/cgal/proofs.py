@@ -7,8 +7,10 @@ import subprocess
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from exactpt.brief import record_in_brief
 from exactpt.cgal.client import find_program, recognise
 from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.kernel.numbers import shorten
 
 _ACCEPTED: Final = 0
 _REJECTED: Final = 1
@@ -30,6 +32,9 @@ class ProofVerdict(NamedTuple):
 
     accepted: bool
     line: str
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def statement(self) -> str | None:
@@ -98,7 +103,7 @@ def _verdict(
     except subprocess.TimeoutExpired:
         raise BudgetExceeded("time limit exceeded while the proof was verified", None) from None
     except OSError as error:
-        raise InputError(f"cannot start {str(path)!r}: {error.strerror}") from None
+        raise InputError(f"cannot start {shorten(str(path), 200)}: {error.strerror}") from None
     line = done.stdout.decode("utf-8", "replace").strip()
     if done.returncode == _ACCEPTED and line.startswith("accepted: "):
         return ProofVerdict(accepted=True, line=line)

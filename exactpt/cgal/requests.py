@@ -73,13 +73,14 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
     place: dict[tuple[str, int], int] = {}
     for i, vertex in enumerate(vertices):
         if place.setdefault((vertex["body"], vertex["vertex"]), i) != i:
-            raise _BadTileError(f"vertex {i} is {vertex['body']!r}: {vertex['vertex']} again")
+            name, place_there = shorten(vertex["body"]), shorten(vertex["vertex"])
+            raise _BadTileError(f"vertex {i} is {name}: {place_there} again")
     yield f"bodies {len(shapes)}"
     for shape in shapes:
         ring = [place.pop((shape.name, number), None) for number in range(shape.size)]
         if None in ring:
             missing = ring.index(None)
-            raise _BadTileError(f"body {shape.name!r}: vertex {missing} is not in the tile")
+            raise _BadTileError(f"body {shorten(shape.name)}: vertex {missing} is not in the tile")
         words = " ".join(map(str, reversed(ring) if shape.clockwise else ring))
         if shape.parts:
             yield f"parts {len(shape.parts)} {_part_words(shape.parts, ring)}"
@@ -90,7 +91,7 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
         else:
             yield f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
     for (name, number), i in place.items():
-        raise _BadTileError(f"vertex {i} is of no body: {name!r}: {number}")
+        raise _BadTileError(f"vertex {i} is of no body: {shorten(name)}: {shorten(number)}")
 
 
 def _part_words(parts: Sequence[Sequence[Sequence[int]]], place: Sequence[int | None]) -> str:

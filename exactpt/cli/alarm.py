@@ -19,6 +19,9 @@ GRACE: Final = 0.25
 LONGEST: Final = 1e8
 """Maximum delay of the timer in seconds, about three years."""
 
+SOON: Final = 1e-6
+"""Seconds until a caller's timer rings that has been due meanwhile; 0 would switch it off."""
+
 AGAIN: Final = 1.0
 """Seconds between repeated signals: an exception raised in a finalizer is dropped by Python."""
 
@@ -60,6 +63,7 @@ def _alarm(seconds: float) -> Iterator[None]:
 
     old = signal.signal(signal.SIGALRM, ring)
     delay = min(seconds, LONGEST) + GRACE
+    begin = clock.monotonic()
     left, interval = signal.setitimer(signal.ITIMER_REAL, delay, AGAIN)
     try:
         yield
@@ -68,5 +72,10 @@ def _alarm(seconds: float) -> Iterator[None]:
             raise BudgetExceeded("time limit exceeded", None) from None
         raise
     finally:
-        signal.setitimer(signal.ITIMER_REAL, left, interval)
-        signal.signal(signal.SIGALRM, old)
+        # First no timer: it would ring by the other handler.
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        if old is not None:  # None: a handler that was not set by Python cannot be put back
+            signal.signal(signal.SIGALRM, old)
+        if left:  # the caller's timer has gone on meanwhile
+            rest = left - (clock.monotonic() - begin)
+            signal.setitimer(signal.ITIMER_REAL, max(rest, SOON), interval)

@@ -12,7 +12,7 @@ import click
 from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
 from exactpt.cli.terminal import name_in_words, print_error, print_output
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, show
+from exactpt.kernel.numbers import QQ, shorten, show
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -192,7 +192,7 @@ def generate(family: str, seed: int, output: Path | None) -> int:
 
     if family not in EVERY:
         near = get_close_matches(family, EVERY, n=3) or ["convex"]
-        raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")
+        raise InputError(f"no family {shorten(family)}: perhaps {' or '.join(near)} (all: --help)")
     scene = generated(family, seed)
     if output is None:
         click.echo(json.dumps(to_json(scene), indent=1))

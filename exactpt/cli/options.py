@@ -63,7 +63,7 @@ class _Seconds(click.FloatRange):
         """Return the number; NaN, which passes the range check, is refused."""
         seconds = float(super().convert(value, param, ctx))  # type: ignore[arg-type]
         if math.isnan(seconds):
-            self.fail(f"{value!r} is not a time", param, ctx)
+            self.fail(f"{shorten(value)} is not a time", param, ctx)
         return seconds
 
 

@@ -12,7 +12,7 @@ import click
 from exactpt.cli.options import RATIONAL, bounded, max_bytes, output, within_budget
 from exactpt.cli.terminal import print_error, print_output
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, shorten
 
 _FEW = 10
 """Number of wrong answers that are named."""
@@ -91,7 +91,7 @@ def _write_questions(family: str, count: int, seed: int, output: Path | None) ->
 
     names = list(FAMILIES) if family == "all" else [family]
     if names[0] not in FAMILIES:
-        raise InputError(f"no family {family!r}; there are: all, {', '.join(FAMILIES)}")
+        raise InputError(f"no family {shorten(family)}; there are: all, {', '.join(FAMILIES)}")
 
     def lines() -> Iterator[str]:
         for number in range(count):

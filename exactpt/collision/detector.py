@@ -9,7 +9,7 @@ from typing import Final
 from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError, carrying
 from exactpt.kernel.budget import bounded
-from exactpt.kernel.numbers import Rational
+from exactpt.kernel.numbers import Rational, shorten
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling import catalogue
@@ -67,7 +67,7 @@ def first_contact(
             or certificate cannot be written.
     """
     if method not in METHODS:
-        raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
+        raise InputError(f"no method {shorten(method)}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     a_scene(scene)
     with bounded(max_seconds, max_memory), carrying(lambda: scene):

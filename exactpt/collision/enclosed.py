@@ -30,6 +30,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, final
 
+from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
 from exactpt.errors import carrying
 from exactpt.geometry.polygon import near_groups
@@ -71,6 +72,9 @@ class EnclosedContact:
     low: AlgebraicNumber
     high: AlgebraicNumber | None
     pairs: tuple[tuple[str, str], ...]
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def is_certain(self) -> bool:

@@ -13,6 +13,7 @@ from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
 from exactpt.exchange.instants import from_datetime
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
+from exactpt.kernel.numbers import shorten
 from exactpt.motion.shape import listed
 from exactpt.scene.format import loads
 from exactpt.scene.json_values import parse_json
@@ -73,9 +74,9 @@ def read_shapes(
         InputError: one line that names the file, the shape and its fault.
     """
     if holes not in ("keep", "refuse", "fill"):
-        raise InputError(f"holes: either keep, refuse or fill: {holes!r}")
+        raise InputError(f"holes: either keep, refuse or fill: {shorten(holes)}")
     if parts not in ("keep", "split"):
-        raise InputError(f"parts: either keep or split: {parts!r}")
+        raise InputError(f"parts: either keep or split: {shorten(parts)}")
     span = None if time is None else [_seconds(t) for t in listed("time", time)]
     file = Path(path)
     kind, text = _format(file), read_text(file, max_bytes)

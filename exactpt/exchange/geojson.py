@@ -22,6 +22,7 @@ from exactpt.scene.json_values import (
     parse_json,
     plain,
     shown,
+    with_long_texts,
 )
 
 if TYPE_CHECKING:
@@ -105,10 +106,11 @@ def named(name: str, properties: Mapping[str, object] | None) -> dict[str, objec
     Raises:
         InputError: if JSON has no such data.
     """
-    found = dict(properties or {})
+    found: dict[str, object] = {}
     try:
+        found |= with_long_texts(dict(properties or {}))
         json.dumps(found, allow_nan=False)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"body {shorten(name)}: properties: {error}") from None
     if name_of({"properties": found}) == name:  # type: ignore[dict-item]
         return found

@@ -118,8 +118,8 @@ def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius:
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
-            f"geometry {name!r} has {len(shapes)} parts, of which only polygons can be one body: "
-            "see Scene.from_shapely"
+            f"geometry {shorten(name)} has {len(shapes)} parts, "
+            "of which only polygons can be one body: see Scene.from_shapely"
         )
     return body_of(shapes[0], name, motion, holes=holes, radius=radius)
 

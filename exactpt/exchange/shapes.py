@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import Boxes, Indices, boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains
@@ -61,6 +62,9 @@ class Shape(NamedTuple):
     radius: QQ | int = 0
     more: Sequence[Shape] = ()
     properties: Mapping[str, object] | None = None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def parts(self) -> tuple[Shape, ...]:

@@ -226,7 +226,7 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
     """
     if digits < 1:
         raise InputError(f"digits: at least 1: {digits}")
-    context = Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX)
+    context = rounding_context(digits)
     if time.sign_of(p) == 0:
         return Decimal(0)
     while True:
@@ -241,6 +241,11 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
             s = time.sign_of(f)
             return rounded_decimal(middle, context) if s == 0 else b if s > 0 else a
         time.refine()
+
+
+def rounding_context(digits: int) -> Context:
+    """Return the context that rounds to some digits, whatever the caller's contexts do."""
+    return Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX, capitals=1, clamp=0, traps=[])
 
 
 def rounded_decimal(q: QQ, context: Context) -> Decimal:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, TypeAlias
 
 import gmpy2
 
+from exactpt.brief import in_brief
 from exactpt.errors import InputError
 
 if TYPE_CHECKING:
@@ -151,8 +152,8 @@ def shorten(text: object, limit: int = 60) -> str:
     """Return the ``repr`` of a value, cut so that a message stays one readable line."""
     try:
         shown = " ".join(repr(text).splitlines())
-    except ValueError:  # Python writes no integers of more than 4,300 digits
-        return f"<{type(text).__name__} with too many digits>"
+    except ValueError:  # an integer has more digits than Python writes
+        return in_brief(text, limit)
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
 
 
@@ -184,12 +185,12 @@ def rational(value: Rational) -> QQ:
         return parse_rational(value)
     if isinstance(value, float):  # numpy.float64 too
         if not math.isfinite(value):
-            raise InputError(f"not a finite number: {value!r}")
+            raise InputError(f"not a finite number: {shorten(value)}")
         return of_double(value)
     if isinstance(value, Decimal):  # as text, which bounds the exponent
         return parse_rational(str(value))
     if type(value).__name__ in _INEXACT:
-        raise InputError(f"not an exact number: {value!r}")
+        raise InputError(f"not an exact number: {shorten(value)}")
     try:
         if hasattr(value, "numerator") and hasattr(value, "denominator"):
             return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
@@ -200,7 +201,7 @@ def rational(value: Rational) -> QQ:
     except InputError:
         raise
     except (OverflowError, ValueError):
-        raise InputError(f"not a finite number: {value!r}") from None
+        raise InputError(f"not a finite number: {shorten(value)}") from None
     except TypeError:  # an array's __index__ and a class's numerator do not give a number
         raise InputError(f"not a number: {shorten(value)}") from None
 

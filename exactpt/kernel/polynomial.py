@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import lcm
 from typing import TYPE_CHECKING, ClassVar, Final, final, overload
 
+from exactpt.brief import call_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.budget import LONG, check_budget
 from exactpt.kernel.numbers import (
@@ -265,7 +266,7 @@ class Polynomial:
         return Polynomial, (tuple(map(str, self._coefficients)),)
 
     def __repr__(self) -> str:
-        return f"Polynomial({[str(c) for c in self._coefficients]})"
+        return call_in_brief("Polynomial", [str(c) for c in self._coefficients])
 
 
 ZERO: Final = Polynomial()
@@ -286,7 +287,7 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
         return Polynomial(value)
     if hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):
         return Polynomial([value])
-    raise InputError(f"not a polynomial: {value!r}")
+    raise InputError(f"not a polynomial: {shorten(value)}")
 
 
 def substituted(f: Sequence[QQ], origin: QQ, step: QQ) -> list[QQ]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from decimal import Context
+from decimal import localcontext
 from fractions import Fraction
 from typing import Final, Self
 
 from exactpt.errors import InputError
-from exactpt.kernel.approximation import nearest_double, rounded_decimal
+from exactpt.kernel.approximation import nearest_double, rounded_decimal, rounding_context
 from exactpt.kernel.integer_polynomial import trimmed
 from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.kernel.numbers import QQ, ZZ, Rational, floor, fraction, rational
@@ -101,9 +101,12 @@ class RealNumber(IsolatedRoot):
         match = re.search(r"\.(\d+)[eEfFgG%]$", spec)
         if match is None or int(match[1]) <= 15:
             return format(float(self), spec)
-        context = Context(int(match[1]) + len(str(int(self))) + 30)
+        units = self._multiple_below(QQ(1))
+        context = rounding_context(int(match[1]) + len(str(units)) + 30)
         while True:
-            low, high = (format(rounded_decimal(q, context), spec) for q in (self._low, self._high))
+            ends = [rounded_decimal(q, context) for q in (self._low, self._high)]
+            with localcontext(context):  # Python rounds by the caller's context otherwise
+                low, high = (format(end, spec) for end in ends)
             if low == high:
                 return low
             self.refine()

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
+from exactpt.brief import record_in_brief
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.descartes import single_roots
 from exactpt.kernel.integer_polynomial import (
@@ -36,6 +37,9 @@ class Root(NamedTuple):
 
     time: AlgebraicNumber
     crossing: bool
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:

@@ -7,6 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, Literal, final, overload
 
+from exactpt.brief import counted, in_brief
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.simple import edges
@@ -427,8 +428,9 @@ class Body:
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
         rounded = f", radius {show(self._radius)}" if self._radius else ""
-        rings = f" in {len(self.rings)} rings" if self.has_rings else ""
-        return f"<Body {self.name!r}: {what} of {self.size} vertices{rings}{rounded}>"
+        rings = f" in {counted(len(self.rings), 'ring')}" if self.has_rings else ""
+        vertices = counted(self.size, "vertex", "vertices")
+        return f"<Body {in_brief(self.name, 60)}: {what} of {vertices}{rings}{rounded}>"
 
 
 def _read_radius(name: str, radius: Rational) -> QQ:

@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias, TypeVar, final
 
+from exactpt.brief import call_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import (
     QQ,
@@ -129,7 +130,7 @@ class Translation(_Given):
         return (self.x, self.y), {}
 
     def __repr__(self) -> str:
-        return f"Translation(x={self.x!r}, y={self.y!r})"
+        return call_in_brief("Translation", x=self.x, y=self.y)
 
 
 REST: Final = Translation()
@@ -212,7 +213,7 @@ class Rigid(_Given):
 
     def __repr__(self) -> str:
         (half_turn,), given = self._given()
-        return f"Rigid({half_turn!r}, {', '.join(f'{k}={v!r}' for k, v in given.items())})"
+        return call_in_brief("Rigid", half_turn, **given)
 
 
 @final
@@ -246,7 +247,7 @@ class Affine(_Given):
         return (self.matrix,), {"x": self.x, "y": self.y}
 
     def __repr__(self) -> str:
-        return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
+        return call_in_brief("Affine", self.matrix, x=self.x, y=self.y)
 
 
 class Pieces(_Given):
@@ -295,7 +296,7 @@ class Pieces(_Given):
 
     def __repr__(self) -> str:
         ends = [*map(str, self._until), None]
-        return f"Pieces({list(zip(ends, self.motions, strict=True))!r})"
+        return call_in_brief("Pieces", list(zip(ends, self.motions, strict=True)))
 
 
 def is_affine(motion: Motion) -> bool:

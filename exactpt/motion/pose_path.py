@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
@@ -292,8 +293,9 @@ class PosePath(Pieces):
         return PosePath.of_pieces, self._given()[0]
 
     def __repr__(self) -> str:
-        span = f"from t = {self._times[0]} to {self._times[-1]}"
-        return f"<PosePath {span}, {len(self._until) - 1} pieces, error {self._error}>"
+        start, end, error = (show(q) for q in (self._times[0], self._times[-1], self._error))
+        pieces = counted(len(self._until) - 1, "piece")
+        return f"<PosePath from t = {start} to {end}, {pieces}, error {error}>"
 
 
 def _pose(i: int, row: Sequence[Coefficients]) -> Pose:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import chain, pairwise
 from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, as_doubles, nearest_float, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
@@ -31,6 +32,9 @@ class Keyframe(NamedTuple):
 
     t: Fraction
     vertices: tuple[tuple[Fraction, Fraction], ...]
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 class Places(NamedTuple):

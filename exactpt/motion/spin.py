@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Final, final
 
+from exactpt.brief import call_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.arctangents import atan_bounds, pi_bounds
 from exactpt.kernel.budget import check_budget
@@ -158,7 +159,7 @@ class Spin(Pieces):
 
     def __repr__(self) -> str:
         span = str(self._until[0]), str(self._until[-1])
-        return f"Spin({str(self._omega)!r}, time={span}, error={str(self._error)!r})"
+        return call_in_brief("Spin", str(self._omega), time=span, error=str(self._error))
 
 
 def _rates(omega: Rational, error: Rational) -> tuple[QQ, QQ]:

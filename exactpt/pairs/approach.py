@@ -8,6 +8,7 @@ from typing import Final, TypeAlias, final, overload
 
 import numpy as np
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt, rational, show
@@ -44,6 +45,9 @@ class Approach:
 
     time: AlgebraicNumber
     pairs: tuple[tuple[str, str], ...]
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 @overload

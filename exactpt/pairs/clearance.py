@@ -20,6 +20,7 @@ from functools import cmp_to_key, lru_cache
 from itertools import zip_longest
 from typing import Final, NamedTuple, final
 
+from exactpt.brief import counted, record_in_brief
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -87,6 +88,9 @@ class Minimum(NamedTuple):
     time: AlgebraicNumber
     squared: AlgebraicNumber
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
     @property
     def distance(self) -> AlgebraicNumber:
         """The least distance, exactly."""
@@ -135,8 +139,8 @@ class Clearance:
     def __repr__(self) -> str:
         names = f"{shorten(self.a, 30)} and {shorten(self.b, 30)}"
         start, end = self.pieces[0].start, self.pieces[-1].end
-        count = len(self.pieces)
-        return f"<Clearance of {names}: {count} pieces from t = {start:.6g} to {end:.6g}>"
+        pieces = counted(len(self.pieces), "piece")
+        return f"<Clearance of {names}: {pieces} from t = {start:.6g} to {end:.6g}>"
 
     def squared(self, at: Rational) -> Fraction:
         """Return the squared distance at a rational time.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import ClassVar, NamedTuple, final
 
+from exactpt.brief import cut
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
@@ -122,7 +123,7 @@ class Contact:
         at = str(self.time)
         if len(at) > 90:
             at = f"{float(self.time)!r}..." if self.time.is_rational else repr(self.time)[1:-1]
-        return f"<Contact at t = {at}, {self.kind}{first}{more}{overlaps}>"
+        return cut(f"<Contact at t = {at}, {self.kind}{first}{more}{overlaps}>")
 
     @property
     def bodies(self) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple, final
 
+from exactpt.brief import record_in_brief
 from exactpt.cached_property import cached_property
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms
@@ -40,6 +41,9 @@ class Feature(NamedTuple):
 
     vertex: int | None
     edge: int | None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 @final

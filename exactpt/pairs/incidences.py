@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
+from exactpt.brief import record_in_brief
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.approximation import exponent, nearest_quotient
 from exactpt.kernel.integer_polynomial import multiply, scale
@@ -49,6 +50,9 @@ class Pair:
     other_vertex: int | None
     point: tuple[float, float]
     normal: tuple[float, float] | None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     def to_json(self) -> dict[str, object]:
         """Return the pair as a JSON object, see docs/format.md."""

@@ -16,6 +16,7 @@ from typing import Final, final
 
 import numpy as np
 
+from exactpt.brief import record_in_brief
 from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import check_budget
@@ -49,6 +50,9 @@ class ContactInterval:
     b: str
     start: AlgebraicNumber
     end: AlgebraicNumber
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     def to_json(self) -> dict[str, object]:
         """Return the interval as a JSON object, see docs/format.md."""

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import near_groups, segments_meet
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
@@ -37,7 +37,7 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     a_scene(scene)
     first, second = scene.body(a), scene.body(b)
     if first is second:
-        raise InputError(f"expected two different bodies, got {a!r} twice")
+        raise InputError(f"expected two different bodies, got {shorten(a)} twice")
     return first, second
 
 

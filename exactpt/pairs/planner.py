@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Final, final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import Rational, shorten
+from exactpt.kernel.numbers import Rational, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pieces
@@ -47,6 +48,11 @@ class Planner:
     def __init__(self, obstacles: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         self._scene = Scene(obstacles, time)
         self._obstacles = Obstacles(self._scene)
+
+    def __repr__(self) -> str:
+        count, span = len(self._scene.bodies), (self._scene._start, self._scene._end)
+        start, end = map(show, span)
+        return f"<Planner among {counted(count, 'obstacle')}, t in [{start}, {end}]>"
 
     def __reduce__(self) -> tuple[object, ...]:
         return Planner, (self._scene.bodies, (self._scene.start, self._scene.end))

@@ -105,8 +105,8 @@ def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
             raise InputError(f"ignoring: a group of names, not the text {shorten(names)}")
         for name in names:
             if name not in number:
-                raise InputError(f"ignoring: there is no body {name!r}")
+                raise InputError(f"ignoring: there is no body {shorten(name)}")
             if group[number[name]] >= len(number):
-                raise InputError(f"body {name!r} is in two groups that ignore each other")
+                raise InputError(f"body {shorten(name)} is in two groups that ignore each other")
             group[number[name]] = k
     return group

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, final, overload
 
+from exactpt.brief import counted, record_in_brief
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -36,6 +37,9 @@ class NearestApproach(NamedTuple):
     body: str
     time: AlgebraicNumber
     squared: AlgebraicNumber
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def distance(self) -> AlgebraicNumber:
@@ -75,7 +79,8 @@ class Surroundings:
         self._found: dict[str, Clearance] = {}
 
     def __repr__(self) -> str:
-        return f"<Surroundings of {shorten(self.name, 30)}: {len(self.others)} other bodies>"
+        others = counted(len(self.others), "other body", "other bodies")
+        return f"<Surroundings of {shorten(self.name, 30)}: {others}>"
 
     def to(self, other: str) -> Clearance:
         """Return the distance from one other body as a function of time.

@@ -12,6 +12,7 @@ from typing import Any, Final, TypeAlias, final
 
 import numpy as np
 
+from exactpt.check_apart import written
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
 from exactpt.proof.frame import Cut, Extents, Frame
@@ -110,7 +111,7 @@ class Separation:
             if (end - start) * FINEST < span or start == end:
                 raise BudgetExceeded("bodies are too near to each other for a certificate", None)
             q = self._middle(items, start, end)
-            lines.append("t" if q == (start + end) / 2 else f"t {q}")
+            lines.append("t" if q == (start + end) / 2 else f"t {written(q)}")
             todo += [(items, present, time, depth + 1) for time in ((q, end), (start, q))]
         return lines
 

@@ -13,11 +13,11 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.cached_property import cached_property
-from exactpt.check_apart import Rejected
+from exactpt.check_apart import Rejected, is_bounded, written
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
-from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational, shorten, show
 from exactpt.motion.tileable import refuse_touching_rings
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.contact import Contact
@@ -87,14 +87,14 @@ def certify(
     named = None if between is None else list(between)
     d, part = rational(distance), scene
     if d < 0:
-        raise InputError(f"distance: a number >= 0 is needed, not {distance}")
+        raise InputError(f"distance: a number >= 0 is needed, not {show(d)}")
     contact: Contact | None = None
     approach: Approach | None = None
     span = fraction(scene._start), fraction(scene._end)
     if at is not None:
         t = rational(at)
         if not scene._start <= t <= scene._end:
-            raise InputError(f"at: {at} is not in the time span of the scene")
+            raise InputError(f"at: {show(t)} is not in the time span of the scene")
         span = fraction(t), fraction(t)
     else:
         part = scene if since is None else scene.since(since)
@@ -110,7 +110,7 @@ def certify(
         try:
             proof.check()
         except AuditError:
-            raise InputError(f"a body is inside another body at t = {at}") from None
+            raise InputError(f"a body is inside another body at t = {shorten(at)}") from None
     return proof
 
 
@@ -228,15 +228,18 @@ class _Certificate:
         if found is not None:
             last, until = self._last(found, start)
         head = ["exactpt-apart 1", f"scene sha256 {hashlib.sha256(self._file).hexdigest()}"]
-        head.append(f"span {start} {until}")
+        head.append(f"span {written(start)} {written(until)}")
         head += self._chosen()
         if self._distance:
-            head.append(f"distance {self._distance}")
+            head.append(f"distance {written(self._distance)}")
         if found is None or start < until:
             groups, named = self._selection.group, self._selection.named
             several = groups if named is None else range(len(groups))
             head += Separation(self._paths, several, self._counts, named).lines(start, until)
-        return "".join(f"{line}\n" for line in [*head, *last]).encode()
+        lines = [*head, *last]
+        if not all(is_bounded(line.split()) for line in lines):
+            raise BudgetExceeded("no certificate: a number has more than 10,000 digits", None)
+        return "".join(f"{line}\n" for line in lines).encode()
 
     def _chosen(self) -> Iterator[str]:
         """Yield the lines that select the pairs that count."""

@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from exactpt.check_apart import Poly, Rejected, Whole, are_near, require_passage, surrounds
+from exactpt.check_apart import Poly, Rejected, Whole, are_near, require_passage, surrounds, written
 from exactpt.motion.track import Touch
 from exactpt.proof.frame import TINY
 from exactpt.proof.paths import Paths
@@ -45,7 +45,7 @@ class Meetings:
             for k, m in product(self._items_at(i, v), others):
                 ends = *items[k][1:], *items[m][1:]
                 if are_near([self._paths.place(w, t) for w in ends], far):
-                    return f"meet {t} {k} {m}"
+                    return f"meet {written(t)} {k} {m}"
         place = {
             v: self._paths.place(v, t)
             for k in {k for pair in pairs for k in pair}
@@ -55,14 +55,14 @@ class Meetings:
             far = self._paths.distance + self._paths.bodies[i].radius + self._paths.bodies[j].radius
             for k, m in _candidates(self.items(i), self.items(j), items, place, float(far)):
                 if are_near([place[v] for v in (*items[k][1:], *items[m][1:])], far):
-                    return f"meet {t} {k} {m}"
+                    return f"meet {written(t)} {k} {m}"
             for one, other in ((i, j), (j, i)):
                 body = self._paths.bodies[other]
                 rings = [[place[first[other] + v] for v in ring] for ring in body.rings]
                 for v in (first[one] + ring[0] for ring in self._paths.bodies[one].rings):
                     odd = sum(surrounds(ring, place[v]) for ring in rings) % 2
                     if body.has_interior and odd:
-                        return f"inside {t} {v} {other}"
+                        return f"inside {written(t)} {v} {other}"
         raise Rejected("no two bodies share a point")
 
     def passage(
@@ -80,7 +80,7 @@ class Meetings:
             end = min([end, *(q for q in breaks if q >= high)])
         tracks = [tuple(map(Poly, self._paths.track(u, until))) for u in (v, a, b)]
         require_passage(tracks, until, end)  # type: ignore[arg-type]
-        return f"cross {until} {end} {v} {item}"
+        return f"cross {written(until)} {written(end)} {v} {item}"
 
 
 def _candidates(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically
 from exactpt.proof.emit import ProofRun, beside
@@ -29,6 +30,9 @@ class Proof(NamedTuple):
     contact: Contact | None
     scene: bytes
     text: bytes
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     def check(self) -> Proved | Certified:
         """Have `exactpt.proof_check`, or `exactpt.check_apart`, verify the proof.

@@ -18,6 +18,7 @@ from exactpt.errors import AuditError, InputError
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import HalfEdge, VertexId
+from exactpt.kernel.numbers import shorten, show
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
 
@@ -104,7 +105,9 @@ class _Search:
         )
         if touched:
             name = self.vertices.bodies[min(touched)].body.name
-            raise InputError(f"body {self.body.name!r} touches body {name!r} at t = {self.t}")
+            raise InputError(
+                f"body {shorten(self.body.name)} touches body {shorten(name)} at t = {show(self.t)}"
+            )
         return ConflictZone(faces, list(crossed))
 
     def _at(self, v: VertexId) -> Point:

@@ -14,6 +14,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
+from exactpt.brief import call_in_brief, counted, cut, record_in_brief
 from exactpt.geometry.predicates import orientation
 from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, fraction, parse_rational
@@ -49,7 +50,7 @@ class Node:
         return node_of, (self.body, self.vertex, str(self._x), str(self._y))
 
     def __repr__(self) -> str:
-        return f"Node({self.body!r}, {self.vertex}, '{self._x}', '{self._y}')"
+        return call_in_brief("Node", self.body, self.vertex, str(self._x), str(self._y))
 
 
 def node_of(body: str, vertex: int, x: str, y: str) -> Node:
@@ -69,6 +70,9 @@ class Edge:
 
     def __reduce__(self) -> tuple[object, ...]:
         return Edge, (self.u, self.v, self.kind, self.hull)
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 @final
@@ -93,6 +97,9 @@ class Face:
     def __reduce__(self) -> tuple[object, ...]:
         return Face, (self.nodes, self.corners, self.region, self.body, self.level)
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -114,6 +121,10 @@ class Snapshot:
 
     def __reduce__(self) -> tuple[object, ...]:
         return snapshot_of, (str(self._at), self.tiling, self.nodes, self.edges, self.faces)
+
+    def __repr__(self) -> str:
+        counts = f"{counted(len(self.nodes), 'node')}, {counted(len(self.faces), 'face')}"
+        return f"<Snapshot of the tiling {self.tiling} at t = {cut(str(self._at), 60)}: {counts}>"
 
     @property
     def at(self) -> Fraction:

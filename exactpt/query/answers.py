@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
+from exactpt.brief import record_in_brief
 from exactpt.kernel.numbers import QQ, fraction, place
 from exactpt.kernel.radicals import nearest_root_sum
 
@@ -48,6 +49,9 @@ class Place:
     tile: int | None = None
     diagonal: tuple[VertexName, VertexName] | None = None
     crossed: int = 0
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def is_free(self) -> bool:
@@ -111,6 +115,9 @@ class Hit(_Later):
     at: Fraction
     crossed: int
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 def hit_later(
     body: str,
@@ -144,6 +151,9 @@ class Path:
     points: tuple[tuple[Fraction, Fraction], ...]
     bends: tuple[VertexName, ...]
     crossed: int
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def length(self) -> float:

@@ -14,7 +14,7 @@ from exactpt.cached_property import cached_property
 from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
-from exactpt.kernel.numbers import place
+from exactpt.kernel.numbers import place, shorten
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
@@ -117,7 +117,7 @@ class ShortestPaths:
             place = place_of(plane, step.end)
             if place.body is not None:
                 (x, y), _ = reach(p, ray.direction, ray.ends(step.end))
-                raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
+                raise InputError(f"the walk meets body {shorten(place.body)} at ({x}, {y})")
             spot = step.end
 
     def _tight(self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point) -> Path:
@@ -145,7 +145,7 @@ class ShortestPaths:
 
 
 def _not_free(p: Point, body: str | None) -> InputError:
-    return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {body!r} has it")
+    return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {shorten(body)} has it")
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:

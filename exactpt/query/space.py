@@ -22,13 +22,14 @@ import numpy as np
 from mypy_extensions import i64
 from numpy.typing import ArrayLike
 
+from exactpt.brief import counted
 from exactpt.cached_property import cached_property
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction, shorten, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Located, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
@@ -70,6 +71,11 @@ class FreeSpace:
         self._at = at
         self._wide: dict[int, ShortestPaths] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, mesh, kinetic.name, at)
+
+    def __repr__(self) -> str:
+        bodies = counted(len(self._bodies), "body", "bodies")
+        faces = counted(len(self.snapshot.faces), "face")
+        return f"<FreeSpace of {bodies}, {faces}, at t = {show(self._at)}>"
 
     @property
     def at(self) -> Fraction:
@@ -224,7 +230,9 @@ class FreeSpace:
                 space was made.
         """
         if len(self._bodies[self._index(body)].parts) > 1:
-            raise InputError(f"body {body!r} has several parts: no loop is the shortest around all")
+            raise InputError(
+                f"body {shorten(body)} has several parts: no loop is the shortest around all"
+            )
         index, first = self._index(body), self._plane.first
         if first[index + 1] - first[index] == 1:
             return [(body, 0)]
@@ -262,13 +270,13 @@ class FreeSpace:
 
     def _index(self, body: str) -> int:
         if body not in self._plane.names:
-            raise InputError(f"no body {body!r}")
+            raise InputError(f"no body {shorten(body)}")
         return self._plane.names.index(body)
 
 
 def _given(p: PointLike) -> Given:
     if isinstance(p, str) or len(p) != 2:
-        raise InputError(f"a point has two coordinates: {p!r}")
+        raise InputError(f"a point has two coordinates: {shorten(p)}")
     near = as_doubles([*p])
     return exact(p) if near is None else (near[0], near[1])
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeVar, final, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags, surely_simple
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true, indices, native
@@ -156,7 +157,8 @@ class BodyArrays(Sequence[Body]):
         )  # fmt: skip
 
     def __repr__(self) -> str:
-        return f"<BodyArrays: {len(self)} bodies, {self.vertex_count} vertices>"
+        vertices = counted(self.vertex_count, "vertex", "vertices")
+        return f"<BodyArrays: {counted(len(self), 'body', 'bodies')}, {vertices}>"
 
 
 def _restored(

@@ -32,6 +32,7 @@ from exactpt.scene.json_values import (
     parse_json,
     properties_in,
     shown,
+    with_long_texts,
 )
 from exactpt.scene.scene import Scene
 
@@ -71,8 +72,12 @@ def from_json(data: Mapping[str, object]) -> Scene:
     """
     try:
         text = json.dumps(data)
-    except (TypeError, ValueError, RecursionError) as error:
-        raise InputError(f"not JSON data: {error}") from None
+    except (TypeError, ValueError, RecursionError):
+        # Python writes no integer beyond its limit on digits: as a text it is the same number.
+        try:
+            text = json.dumps(with_long_texts(data))
+        except (TypeError, ValueError, RecursionError) as error:
+            raise InputError(f"not JSON data: {error}") from None
     return loads(text)
 
 

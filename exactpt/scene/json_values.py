@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from math import inf
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
@@ -24,8 +24,11 @@ MAX_BITS: Final = 33_220
 
 DEEPEST: Final = 32
 """Number of lists and objects around each other, from the scene itself on."""
-LONGEST: Final = 4000
-"""Number of digits from which on an integer stays a text, as Python reads no longer ones."""
+LONGEST: Final = 640
+"""Number of digits from which on an integer stays a text: Python's limit is not below it."""
+
+_LONG: Final = 10 ** (LONGEST - 1)
+"""The least integer that stays a text when it is read."""
 
 
 class Number(str):
@@ -164,6 +167,16 @@ def plain(data: Json) -> object:
     if isinstance(data, dict):
         return {key: plain(value) for key, value in data.items()}
     return [plain(value) for value in data] if isinstance(data, list) else data
+
+
+def with_long_texts(value: Any) -> Any:  # noqa: ANN401 - JSON
+    """Return a value of JSON with its long integers as texts: a reader gets these, too."""
+    if isinstance(value, dict):
+        return {key: with_long_texts(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [with_long_texts(part) for part in value]
+    is_long = isinstance(value, int) and abs(value) >= _LONG
+    return str(QQ(value)) if is_long else value
 
 
 def shown(data: Json) -> str:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, final, overload
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -408,10 +409,9 @@ class Scene:
         return str(extension("picture of a scene")(self))
 
     def __repr__(self) -> str:
-        return (
-            f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "
-            f"t in [{self._start}, {self._end}]>"
-        )
+        bodies = counted(len(self.bodies), "body", "bodies")
+        vertices = counted(self.vertex_count, "vertex", "vertices")
+        return f"<Scene: {bodies}, {vertices}, t in [{show(self._start)}, {show(self._end)}]>"
 
 
 def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:

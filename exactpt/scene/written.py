@@ -24,7 +24,14 @@ from exactpt.motion.motions import (
 )
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
-from exactpt.scene.json_values import MAX_DIGITS, VERSION, is_too_long, parse_json, properties_in
+from exactpt.scene.json_values import (
+    MAX_DIGITS,
+    VERSION,
+    is_too_long,
+    parse_json,
+    properties_in,
+    with_long_texts,
+)
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -92,7 +99,7 @@ def json_properties(body: Body) -> dict[str, object]:
         InputError: if JSON has no such data.
     """
     try:
-        text = json.dumps(body.properties, allow_nan=False)
+        text = json.dumps(with_long_texts(body.properties), allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"properties: {error}") from None
     return properties_in(parse_json(text), "properties")
@@ -152,7 +159,7 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
         return {"affine": {"matrix": matrix, "x": x, "y": y}}
     if isinstance(motion, Translation):
         return {"x": _coefficients(motion.x), "y": _coefficients(motion.y)}
-    raise InputError(f"a motion of this kind has no place in a scene file: {motion!r}")
+    raise InputError(f"a motion of this kind has no place in a scene file: {shorten(motion)}")
 
 
 def _path_to_json(path: PosePath) -> dict[str, object]:

@@ -7,6 +7,7 @@ from typing import ClassVar, TypeAlias, cast, final
 
 from mypy_extensions import mypyc_attr
 
+from exactpt.brief import counted, cut
 from exactpt.certificates.moment import Moment
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertex import Vertex, VertexList
@@ -79,8 +80,8 @@ class Event:
     def __repr__(self) -> str:
         edges = f"removed={self.removed!r}, added={self.added!r}"
         if len(edges) > 90:
-            edges = f"{len(self.removed)} edges removed, {len(self.added)} added"
-        return f"Event(time={self.time!r}, kind={self.kind!r}, {edges})"
+            edges = f"{counted(len(self.removed), 'edge')} removed, {len(self.added)} added"
+        return f"Event(time={cut(repr(self.time), 80)}, kind={self.kind!r}, {edges})"
 
     def __reduce__(self) -> tuple[object, ...]:
         return Event, (self.time, self.kind, self.removed, self.added)

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, fraction, rational, show
+from exactpt.kernel.numbers import QQ, fraction, rational, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.motion.outline import pieces_of
@@ -30,6 +31,9 @@ class Mark(NamedTuple):
     kind: str
     bodies: tuple[str, ...]
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 class Life(NamedTuple):
     """A body with all of its motions as pieces of one motion, from a time until another.
@@ -40,6 +44,9 @@ class Life(NamedTuple):
     body: Body
     since: Fraction
     until: Fraction
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 @final
@@ -61,6 +68,9 @@ class History:
     marks: tuple[Mark, ...]
     contact: Contact | None
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
     @property
     def is_scene(self) -> bool:
         """True if all bodies were there from the start on, and kept their shapes."""
@@ -79,7 +89,7 @@ class History:
         for body, since, until in self.lives:
             if (since, until) != (self.start, self.end):
                 raise InputError(
-                    f"body {body.name!r} was there from t = {show(rational(since))} "
+                    f"body {shorten(body.name)} was there from t = {show(rational(since))} "
                     f"to t = {show(rational(until))} "
                     f"only (or changed its shape then): no scene is this run"
                 )

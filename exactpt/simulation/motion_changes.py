@@ -18,7 +18,16 @@ from collections.abc import Sequence
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, rationals, show
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    floor,
+    power_of_two,
+    rational,
+    rationals,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.course import jump
@@ -44,7 +53,9 @@ def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
     if isinstance(motion, Body):
         new = motion
         if (new.name, new.closed, new.parts) != (body.name, body.closed, body.parts):
-            raise InputError(f"body {body.name!r}: {new!r} is not a motion of {body!r}")
+            raise InputError(
+                f"body {shorten(body.name)}: {shorten(new)} is not a motion of {shorten(body)}"
+            )
     else:
         new = body.with_motion(motion)
     if _moves_on(body, new, t):
@@ -52,7 +63,7 @@ def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
     for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
         if p != q:
             raise InputError(
-                f"body {body.name!r}: vertex {i} {jump(t, p, q)}; "
+                f"body {shorten(body.name)}: vertex {i} {jump(t, p, q)}; "
                 f"exactpt.onward continues from where the body is"
             )
     return new
@@ -121,7 +132,7 @@ def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
     motion = body._piece_after(t).motion
     if isinstance(motion, (Translation, Rigid, Affine)):
         return motion.x, motion.y
-    raise InputError(f"a motion of this kind has no translation: {motion!r}")
+    raise InputError(f"a motion of this kind has no translation: {shorten(motion)}")
 
 
 def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
@@ -136,8 +147,8 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
         near = t._low if t.is_rational or not passed else passed[-1]
         if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):
             raise InputError(
-                f"body {body.name!r}: its velocity at the irrational time {float(t)!r} is not "
-                f"rational; run to a rational time before it"
+                f"body {shorten(body.name)}: its velocity at the irrational time {float(t)!r} is "
+                f"not rational; run to a rational time before it"
             )
         t = near
     x, y = translation_at(body, t)

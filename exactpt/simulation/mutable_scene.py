@@ -147,7 +147,7 @@ class MutableScene(TiledScene):
         """Add a body, see `Simulation.add`; return the events caused at once."""
         t = self.rational_now()
         if body.name in self._number:
-            raise InputError(f"body {body.name!r}: the name is taken by another body")
+            raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
         refuse_untileable([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
         bodies = [*self._bodies, body]
@@ -155,7 +155,9 @@ class MutableScene(TiledScene):
         if events is None:
             for i, j in initial_touches(alone.going_on(bodies, t))[1]:
                 names = bodies[i].name, bodies[j].name
-                raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {show(t)}")
+                raise InputError(
+                    f"body {shorten(names[1])} touches body {shorten(names[0])} at t = {show(t)}"
+                )
             return self._restart(bodies, t, 1)
         self._number[body.name] = len(self._bodies)
         self._bodies.append(body)

@@ -83,7 +83,7 @@ class Bounce:
         grid: Rational = GRID,
     ) -> None:
         if isinstance(fixed, str):
-            raise InputError(f"fixed: a collection of names, not the text {fixed!r}")
+            raise InputError(f"fixed: a collection of names, not the text {shorten(fixed)}")
         masses = dict(masses or {})
         positive = {"slowest": slowest, "fastest": fastest, "grid": grid}
         positive |= {f"the mass of {shorten(name)}": mass for name, mass in masses.items()}

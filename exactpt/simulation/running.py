@@ -91,7 +91,7 @@ class Run:
         end = last if until is None else min(rational(until), last)
         grid = self.margin if margin is None else rational(margin)
         if grid <= 0:
-            raise InputError(f"the margin before contacts is not positive: {grid}")
+            raise InputError(f"the margin before contacts is not positive: {show(grid)}")
         if self.contact is None and self.mutable.kinetic.is_after(end):
             now = float(self.mutable.now)
             raise InputError(f"until: t = {show(end)} is over, it is t = {now!r} now")

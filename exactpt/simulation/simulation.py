@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.files import write_atomically
@@ -97,6 +98,11 @@ class Simulation:
             scene, tiling, budget, exact_only=exact_only, observers=observers, log=log
         )
         self._spaces = SpaceCache()
+
+    def __repr__(self) -> str:
+        bodies = counted(len(self.scene.bodies), "body", "bodies")
+        ended = ", at a contact" if self.contact is not None else ""
+        return f"<Simulation of {bodies}, tiling {self.name}, t = {float(self.now)!r}{ended}>"
 
     @property
     def contact(self) -> Contact | None:

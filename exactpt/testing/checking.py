@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Generic, Protocol, TypeAlias, TypeVar, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, shorten
 from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
@@ -60,6 +61,9 @@ class Subject(Generic[Q]):
     imports: str
     assertion: str
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
 
 _PLANE: Final[Subject[Question]] = Subject(
     families=tuple(FAMILIES),
@@ -91,6 +95,9 @@ class Counterexample(Generic[Q]):
     answer: object
     truth: Truth
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
     def __str__(self) -> str:
         time = self.truth.time
         right = "no contact" if time is None else f"a contact at t = {shown_time(time)}"
@@ -115,6 +122,9 @@ class Report(Generic[Q]):
     _function: str
     _tolerance: float
     _subject: Subject[Q]
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def ok(self) -> bool:

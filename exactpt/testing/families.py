@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, power_of_two
+from exactpt.kernel.numbers import QQ, power_of_two, shorten
 from exactpt.scene.families.shapes import box, convex_polygon, hull
 from exactpt.testing.questions import Moving, Question
 
@@ -38,6 +39,9 @@ class Pass(NamedTuple):
     span: Number
     closed: tuple[bool, bool] = (True, True)
     far: Number = 0
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 Family: TypeAlias = Callable[[Random], Pass]
@@ -215,7 +219,7 @@ def make_question(family: str, seed: int = 0, number: int = 0) -> Question:
         InputError: if there is no such family.
     """
     if family not in FAMILIES:
-        raise InputError(f"no family {family!r}; there are: {', '.join(FAMILIES)}")
+        raise InputError(f"no family {shorten(family)}; there are: {', '.join(FAMILIES)}")
     name = f"{family}:{seed}:{number}"
     rng = Random(name)
     return disguised(rng, FAMILIES[family](rng), name)

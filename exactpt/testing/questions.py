@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, NoReturn, TypeAlias, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import rational, shorten
@@ -43,6 +44,9 @@ class Moving:
     y: Doubles = ()
     closed: bool = True
 
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
     @property
     def velocity(self) -> tuple[float, float]:
         """The velocity (x, y) at t = 0, which is that of all times if the motion is linear."""
@@ -72,6 +76,9 @@ class Question:
     b: Moving
     time: tuple[float, float]
     name: Name = None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def scene(self) -> Scene:

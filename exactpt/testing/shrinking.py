@@ -17,6 +17,7 @@ from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import fraction, parse_rational, rational
 from exactpt.scene.format import from_json
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
@@ -130,7 +131,7 @@ def _size(data: Data) -> tuple[int, int, int, int]:
 
 def _weight(text: str) -> int:
     """Return the complexity of a number; 0 for 0."""
-    q = Fraction(text)
+    q = _number(text)
     bits = 4 * (q.numerator.bit_length() + q.denominator.bit_length() - 1)
     return bits + (q < 0) + min(abs(q.numerator), 3)
 
@@ -163,9 +164,9 @@ def _fewer_bodies(data: Data) -> Iterator[Data]:
 
 
 def _shorter_span(data: Data) -> Iterator[Data]:
-    start, end = (Fraction(t) for t in data["time"])
+    start, end = map(_number, data["time"])
     for share in (Fraction(1, 8), Fraction(1, 4), Fraction(1, 2), Fraction(3, 4)):
-        yield _changed(data, ("time", 1), str(start + share * (end - start)))
+        yield _changed(data, ("time", 1), _text(start + share * (end - start)))
 
 
 def _fewer_vertices(data: Data) -> Iterator[Data]:
@@ -253,20 +254,36 @@ def coarser_numbers(data: Data) -> Iterator[Data]:
             result = copy.deepcopy(data)
             for path in _numbers(data):
                 if path[0] != "time":
-                    value = Fraction(_at(data, path)) * unit / divisor
-                    _at(result, path[:-1])[path[-1]] = str(Fraction(round(value), unit))
+                    value = _number(_at(data, path)) * unit / divisor
+                    _at(result, path[:-1])[path[-1]] = _text(Fraction(round(value), unit))
             yield result
 
 
 def simpler_numbers(data: Data) -> Iterator[Data]:
     """Yield data with one number simpler."""
     for path in _numbers(data):
-        q = Fraction(_at(data, path))
+        q = _number(_at(data, path))
         simpler: list[Fraction | int] = [0, 1, -1, int(q), round(q), q.limit_denominator(10)]
         simpler += [round(q / 2), round(q / 10), abs(q), q - (1 if q > 0 else -1)]
         for value in dict.fromkeys(simpler):
             if value != q:
-                yield _changed(data, path, str(value))
+                yield _changed(data, path, _text(value))
+
+
+def _number(text: str) -> Fraction:
+    return fraction(parse_rational(text))
+
+
+def _text(value: Fraction | int) -> str:
+    return str(rational(value))  # Python itself writes no long integers
+
+
+def _no_properties(data: Data) -> Iterator[Data]:
+    """Yield data without the properties of bodies, which no question reads."""
+    result = copy.deepcopy(data)
+    for body in result["bodies"]:
+        body.pop("properties", None)
+    yield result
 
 
 def _simpler_names(data: Data) -> Iterator[Data]:
@@ -277,6 +294,7 @@ def _simpler_names(data: Data) -> Iterator[Data]:
 
 
 _STEPS: Final = (
+    _no_properties,
     _fewer_bodies,
     _shorter_span,
     _fewer_rings,
@@ -290,9 +308,10 @@ _STEPS: Final = (
 
 
 def _numbers(data: Data) -> Iterator[Path]:
-    """Yield the paths of all numbers: of all texts except names."""
+    """Yield the paths of all numbers: of all texts except names and properties."""
     for path in _paths(data):
-        if isinstance(_at(data, path), str) and path[-1] != "name":
+        is_text = isinstance(_at(data, path), str)
+        if is_text and path[-1] != "name" and "properties" not in path:
             yield path
 
 

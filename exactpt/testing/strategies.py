@@ -18,7 +18,7 @@ from typing import TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import orientation
-from exactpt.kernel.numbers import rational
+from exactpt.kernel.numbers import rational, shorten
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.families.shapes import hull
 from exactpt.scene.generate import EVERY, generate
@@ -101,7 +101,9 @@ def scenes(family: str | None = None) -> SearchStrategy[Scene]:
     if family in FAMILIES:
         return pairs_in_motion(family).map(lambda question: question.scene)
     if family is not None and family not in EVERY:
-        raise InputError(f"no family {family!r}; there are: {', '.join([*FAMILIES, *EVERY])}")
+        raise InputError(
+            f"no family {shorten(family)}; there are: {', '.join([*FAMILIES, *EVERY])}"
+        )
     names = st.sampled_from(list(EVERY)) if family is None else st.just(family)
     return st.builds(generate, names, st.integers(0, 2**32))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
+from exactpt.brief import counted
 from exactpt.testing.comparing import VERDICTS
 
 
@@ -39,6 +40,11 @@ class Table:
     def to_json(self) -> dict[str, object]:
         """Return the table as a JSON object."""
         return {"families": {f: dict(row) for f, row in self.rows.items()}, "total": self.total}
+
+    def __repr__(self) -> str:
+        total = sum(self.total.values())
+        families = counted(len(self.rows), "family", "families")
+        return f"<Table: {self.total['right']} of {counted(total, 'answer')} right, {families}>"
 
     def __str__(self) -> str:
         rows = {**self.rows, "total": self.total}

@@ -9,6 +9,7 @@ import numpy as np
 
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.arrays.pairs import first_contacts
+from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import sign_at
@@ -31,6 +32,9 @@ class Truth(NamedTuple):
     time: AlgebraicNumber | None
     kind: str | None = None
     pair: dict[str, object] | None = None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     def to_json(self) -> dict[str, object]:
         """Return the truth as a JSON object, see docs/testing.md."""

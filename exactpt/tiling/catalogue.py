@@ -7,6 +7,7 @@ from enum import Enum, unique
 from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
 
 
 @final
@@ -102,7 +103,7 @@ def choose(
             is_meant, fits = entry.name == name, True  # `plan_tiling` refuses the others
         if is_meant and fits and (entry.bodies is not Bodies.CONVEX or convex()):
             return entry
-    raise InputError(f"no tiling {name!r}; there are: {', '.join(known())}")
+    raise InputError(f"no tiling {shorten(name)}; there are: {', '.join(known())}")
 
 
 def find(name: str, *, convex: bool) -> Entry:

@@ -13,7 +13,7 @@ from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
@@ -125,7 +125,7 @@ def _vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ
     for body in bodies:
         if body.size > 1:
             raise InputError(
-                f"body {body.name!r}: has {body.size} vertices: "
+                f"body {shorten(body.name)}: has {body.size} vertices: "
                 f"the {entry.name} tiling is for points"
             )
     return Vertices.of(bodies, start, end, plain=True)

@@ -391,13 +391,13 @@ def _wrong_distances(random: Random, scene: Scene, pieces: Sequence[Scene]) -> I
     for two in pieces:
         a, b = (body.name for body in two.bodies)
         squares.append(distance(two, a, b, at=at).core_squared)
-        time = first_within(two, a, b, d, norm="euclidean")
+        time = first_within(two, a, b, d)
         if time is not None:
             times.append(time)
     found, least = distance(scene, "a", "b", at=at).core_squared, min(squares)
     if found != least:
         yield f"the distance at {at}: {found}, but that of the pieces {least}"
-    within = first_within(scene, "a", "b", d, norm="euclidean")
+    within = first_within(scene, "a", "b", d)
     if within != min(times, default=None):
         yield f"within {d}: {within}, but the pieces {min(times, default=None)}"
     if scene.has_radius:  # the cores decide, as above

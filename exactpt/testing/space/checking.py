@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import Rational
+from exactpt.kernel.numbers import Rational, shorten
 from exactpt.testing.checking import Report, Subject, check_subject
 from exactpt.testing.comparing import TOLERANCE, bound, shown_time, verdict
 from exactpt.testing.shrinking import coarser_numbers, shrink_data, simpler_numbers
@@ -85,10 +85,10 @@ def assert_same_time(query: SpaceQuery, answer: object, *, tolerance: Rational =
     contact = contact_of(query)
     found = verdict(None if contact is None else contact.time, answer, bound(tolerance))
     if found == "crashed":
-        raise InputError(f"answer: expected a time or None, got {answer!r}")
+        raise InputError(f"answer: expected a time or None, got {shorten(answer)}")
     if found != "right":
         truth = "no contact" if contact is None else f"t = {shown_time(contact.time)}"
-        raise AssertionError(f"{found}: the answer is {answer!r}; the truth is {truth}")
+        raise AssertionError(f"{found}: the answer is {shorten(answer)}; the truth is {truth}")
 
 
 def shrink_query(

@@ -12,7 +12,7 @@ from random import Random
 from typing import Final, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, shorten
 from exactpt.testing.space.queries import KINDS, Kind, Point, SpaceQuery
 
 Places: TypeAlias = Sequence[Sequence["QQ | int"]]
@@ -122,9 +122,9 @@ def make_query(kind: Kind, family: str, seed: int = 0, number: int = 0) -> Space
         InputError: for an unknown kind or family.
     """
     if kind not in KINDS:
-        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {kind!r}")
+        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {shorten(kind)}")
     if family not in FAMILIES:
-        raise InputError(f"no family {family!r}; there are: {', '.join(FAMILIES)}")
+        raise InputError(f"no family {shorten(family)}; there are: {', '.join(FAMILIES)}")
     name = f"{family}:{seed}:{number}"
     rng = Random(f"{kind}:{name}")
     start, end = FAMILIES[family](rng, kind == "vertex-face")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, cast, final
 
+from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten
 from exactpt.testing.questions import Name, double, id_of
@@ -34,6 +35,9 @@ class SpaceQuery:
     start: tuple[Point, ...]
     end: tuple[Point, ...]
     name: Name = None
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
     @property
     def size(self) -> int:

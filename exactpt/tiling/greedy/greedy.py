@@ -15,7 +15,7 @@ from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key, twin
@@ -292,7 +292,7 @@ class VerticalRules(Rules):
         vertex = self.certified.vertices.all[self.certified.mesh.map.origin[h]]
         body = self.certified.vertices.bodies[vertex.body].body
         raise AuditError(
-            f"body {body.name!r}: stops being convex at vertex {vertex.index}, "
+            f"body {shorten(body.name)}: stops being convex at vertex {vertex.index}, "
             f"t = {float(self.certified.certifier.exact_now)}: "
             "this greedy tiling is for bodies that stay convex"
         )
