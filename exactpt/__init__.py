@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Final
 from exactpt.extensions import register
 
 if TYPE_CHECKING:
+    __version__: str
+    __compiled__: bool
     from exactpt import arrays as arrays
     from exactpt import batch as batch
     from exactpt.collision.detector import first_contact
@@ -38,17 +40,19 @@ if TYPE_CHECKING:
     from exactpt.motion.spin import Spin
     from exactpt.pairs.approach import Approach, first_within
     from exactpt.pairs.clearance import Clearance
-    from exactpt.pairs.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact
+    from exactpt.pairs.contact import Pair as Pair
     from exactpt.pairs.distance import Distance, distance
     from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
     from exactpt.pairs.planner import Planner
     from exactpt.pairs.surroundings import Surroundings, clearance
     from exactpt.proof.certified import certify
     from exactpt.proof.written import Proof, prove
-    from exactpt.query.answers import Hit, Path, Place
+    from exactpt.query.answers import Hit, Place
+    from exactpt.query.answers import Path as Path
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
-    from exactpt.simulation.event import Event
+    from exactpt.simulation.event import Event as Event
     from exactpt.simulation.history import History
     from exactpt.simulation.motion_changes import onward
     from exactpt.simulation.responses import Bounce, stop
@@ -57,6 +61,8 @@ if TYPE_CHECKING:
 if isfile(f"{__path__[0]}/compiled.txt"):  # a checkout after `make compiled`
     import_module("exactpt.compiled").compare()
 
+# Event, Pair and Path are public too: but `from exactpt import *` would hide the classes of
+# threading and pathlib that have these names.
 __all__ = [
     "Affine",
     "AlgebraicNumber",
@@ -70,14 +76,11 @@ __all__ = [
     "ContactInterval",
     "Distance",
     "EnclosedContact",
-    "Event",
     "ExactPTError",
     "FreeSpace",
     "History",
     "Hit",
     "InputError",
-    "Pair",
-    "Path",
     "Pieces",
     "Place",
     "Planner",
@@ -151,6 +154,25 @@ _MODULES: Final = {
     "exactpt.simulation.simulation": ("Simulation",),
 }
 
+
+def _version() -> str:
+    """Return the version of the installed package."""
+    from importlib.metadata import version
+
+    return version("exactpt")
+
+
+def _is_compiled() -> bool:
+    """Return True if the most used modules are compiled, False if they are plain Python."""
+    from importlib.util import find_spec
+
+    spec = find_spec("exactpt.planar.halfedge")
+    return spec is not None and spec.origin is not None and not spec.origin.endswith(".py")
+
+
+_ABOUT: Final = {"__version__": _version, "__compiled__": _is_compiled}
+"""Values that are computed when they are read: ``__version__``, and whether it is compiled."""
+
 _MODULE_OF: Final = {name: module for module, names in _MODULES.items() for name in names}
 
 
@@ -178,6 +200,8 @@ def __getattr__(name: str) -> object:
     """Return a public name or subpackage, imported on first use (PEP 562)."""
     if name in ("arrays", "batch"):
         return import_module(f"exactpt.{name}")
+    if name in _ABOUT:
+        return _ABOUT[name]()
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value: object = getattr(import_module(_MODULE_OF[name]), name)
@@ -186,4 +210,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return sorted({*_MODULE_OF, *_ABOUT, "arrays", "batch"})

@@ -3,7 +3,7 @@
 python examples/billiards.py 300 2      # polygons, seconds of the scene
 """
 
-import sys
+import argparse
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -34,8 +34,12 @@ def table(count: int, rng: Random) -> tuple[exactpt.Scene, list[str]]:
 
 def main() -> None:
     """Run, save, restore and go on; print the energy, the momentum of one body and the rates."""
-    count, seconds = int(sys.argv[1]), int(sys.argv[2])
-    scene, walls = table(count, Random(7))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("polygons", type=int)
+    parser.add_argument("seconds", type=int, help="the time span of the scene")
+    given = parser.parse_args()
+    seconds = given.seconds
+    scene, walls = table(given.polygons, Random(7))
     simulation = exactpt.Simulation(scene, tiling="lazy")
     bounce = exactpt.Bounce(walls, grid="1/1073741824", slowest="1/1024")
     before = bounce.kinetic_energy(simulation)

@@ -4,7 +4,7 @@
 of one body alone: `check` finds that, and writes the smallest counterexamples as a pytest file.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 from exactpt.testing import LINEAR, Moving, Question, check
@@ -48,10 +48,13 @@ def toi(question: Question) -> float | None:
 
 def main() -> None:
     """Check both, and write the tests for the wrong one into a file, if one is named."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("tests", type=Path, nargs="?", help="the pytest file to write")
+    given = parser.parse_args()
     wrong = check(toi_one_sided, cases=400, families=LINEAR, accept=lambda q: q.convex)
     print(wrong)
-    if len(sys.argv) > 1:
-        Path(sys.argv[1]).write_text(wrong.pytest_file())
+    if given.tests is not None:
+        given.tests.write_text(wrong.pytest_file())
     print(check(toi, cases=400, families=LINEAR, accept=lambda q: q.convex))
 
 

@@ -1,14 +1,14 @@
-"""Writes scenes of two moving polygons, one on each line: `exactpt batch` answers them.
+"""Writes scenes of two moving polygons, one on each line: input of `exactpt batch`.
 
 python examples/many_scenes.py 1000000 >scenes.jsonl
-exactpt batch scenes.jsonl -o answers.jsonl --jobs 2
+exactpt batch scenes.jsonl -o results.jsonl --jobs 2
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
-import sys
 from random import Random
 
 
@@ -34,9 +34,12 @@ def scene(rng: Random) -> dict[str, object]:
 
 
 def main() -> None:
-    """Write as many scenes as the first argument says."""
+    """Write as many scenes as the argument says."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", type=int)
+    given = parser.parse_args()
     rng = Random(1)
-    for _ in range(int(sys.argv[1])):
+    for _ in range(given.scenes):
         print(json.dumps(scene(rng)))
 
 

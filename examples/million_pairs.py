@@ -1,7 +1,7 @@
 """Pairs of moving triangles, as many as the argument names, some bad; then scenes in Parquet."""
 
+import argparse
 import json
-import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -43,7 +43,9 @@ def batch(count: int, folder: Path) -> pa.Table:
 
 def main() -> None:
     """Print how many touch, how many were refused and why, and a row of the table."""
-    count = int(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pairs", type=int)
+    count = parser.parse_args().pairs
     found = pairs(count)
     print(f"{found.found.sum()} of {count} pairs touch, {found.refused.sum()} refused:")
     print(found.reasons()[0])

@@ -5,7 +5,7 @@ the path itself; the times during which the robot is within 5 mm are those of it
 whose points are at most `r error` away from it, r their distance from the origin of the robot.
 """
 
-import sys
+import argparse
 from random import Random
 
 import numpy as np
@@ -41,6 +41,9 @@ def cell(rng: Random) -> exactpt.Scene:
 
 def main() -> None:
     """Print the first contact and all times within 5 mm; draw into a file, if one is named."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("picture", nargs="?", help="the file of the picture to draw")
+    given = parser.parse_args()
     scene = cell(Random(8))
     obstacles = [body.name for body in scene.bodies[1:]]
     found = exactpt.first_contact_enclosed(scene, ignoring=[obstacles])
@@ -51,8 +54,8 @@ def main() -> None:
     near = exactpt.Scene([wide, *scene.bodies[1:]], time=(0, 10))
     for interval in exactpt.contacts(near, ignoring=[obstacles]):
         print(f"within 5 mm of {interval.b}: {interval.start:.6f} to {interval.end:.6f} s")
-    if len(sys.argv) > 1:
-        scene.draw(sys.argv[1], tiling=None, legend=True, poses=12)
+    if given.picture is not None:
+        scene.draw(given.picture, tiling=None, legend=True, poses=12)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Ships and storms, moving features: python examples/ships_and_storms.py 60 found.geojson."""
 
+import argparse
 import json
-import sys
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from random import Random
@@ -38,7 +38,11 @@ def features(ships: int, rng: Random) -> list[dict[str, object]]:
 
 def main() -> None:
     """Print the intervals with dates, and write them with the properties of both bodies."""
-    data = {"type": "FeatureCollection", "features": features(int(sys.argv[1]), Random(5))}
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("ships", type=int)
+    parser.add_argument("intervals", type=Path, help="the file of GeoJSON to write")
+    given = parser.parse_args()
+    data = {"type": "FeatureCollection", "features": features(given.ships, Random(5))}
     with TemporaryDirectory() as folder:
         file = Path(folder) / "ships.mfjson"
         file.write_text(json.dumps(data))
@@ -51,7 +55,7 @@ def main() -> None:
         start, end = (exactpt.to_datetime(t).strftime("%H:%M:%S") for t in (one.start, one.end))
         print(f"{one.a} in {one.b} from {start} to {end}")
     found = exactpt.to_features(scene, intervals, dates=True)
-    Path(sys.argv[2]).write_text(json.dumps(found))
+    given.intervals.write_text(json.dumps(found))
 
 
 if __name__ == "__main__":

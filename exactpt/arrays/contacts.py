@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats
@@ -116,6 +117,6 @@ class Contacts:
 
     def __repr__(self) -> str:
         return (
-            f"<Contacts: {int(self.found.sum())} of {len(self)} pairs touch, "
+            f"<Contacts: {int(self.found.sum())} of {counted(len(self), 'pair')} touch, "
             f"{int(self.exact.sum())} decided exactly>"
         )

@@ -13,6 +13,7 @@ from typing import Final
 
 import click
 
+import exactpt
 from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.terminal import (
     drop_standard_output,
@@ -91,7 +92,11 @@ All commands: exactpt --help"""
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-@click.version_option(package_name="exactpt")
+@click.version_option(
+    package_name="exactpt",
+    prog_name="exactpt",
+    message=f"%(prog)s, version %(version)s, {'compiled' if exactpt.__compiled__ else 'plain'}",
+)
 @click.pass_context
 def cli(context: click.Context) -> None:
     """Exact collision detection of moving and deforming polygons in the plane.

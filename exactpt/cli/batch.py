@@ -6,7 +6,11 @@ from pathlib import Path
 
 import click
 
+from exactpt.brief import counted
 from exactpt.cli.options import (
+    AFTER_START,
+    BETWEEN,
+    IGNORE,
     QUIET,
     RATIONAL,
     TILING,
@@ -26,15 +30,15 @@ from exactpt.kernel.numbers import QQ
 
 @click.command()
 @click.argument("scenes", type=click.Path(path_type=Path), metavar="SCENES")
-@output("The file of answers, which must not exist.", required=True)
+@output("The file of results, which must not exist.", required=True)
 @click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
 @click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
-@click.option("--all", "every", is_flag=True, help="Ask for all intervals in which bodies meet.")
+@click.option("--all", "every", is_flag=True, help="Find all intervals in which bodies meet.")
 @click.option(
     "--within",
     "distance",
     type=RATIONAL,
-    help="Ask for the first time at which two bodies are within this Euclidean distance.",
+    help="Find the first time at which two bodies are within this Euclidean distance.",
 )
 @click.option("--until", type=RATIONAL, help="Search up to this time.")
 @click.option("--since", type=RATIONAL, help="Search from this time on.")
@@ -46,9 +50,9 @@ from exactpt.kernel.numbers import QQ
     type=click.Choice(["kinetic", "pairs", "auto"]),
     help="A tiling, or a search over pairs.",
 )
-@click.option("--ignore", multiple=True, metavar="NAME,NAME...", help="As of collide.")
-@click.option("--after-start", is_flag=True, help="As of collide.")
-@click.option("--between", multiple=True, metavar="NAME,NAME", help="As of collide.")
+@IGNORE
+@AFTER_START
+@BETWEEN
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
 @QUIET
 @bounded
@@ -109,7 +113,7 @@ def batch(
     )
     share = [0, 1]
     try:
-        with estimating("answering", quiet=quiet) as show:
+        with estimating("searching", quiet=quiet) as show:
 
             def report(done: int, whole: int) -> None:
                 share[:] = done, whole
@@ -122,9 +126,10 @@ def batch(
         print_error(_interrupted(output, *share))
         return INTERRUPTED
     if not quiet:
-        print_error(f"{done.scenes} scenes processed, {done.failures} failed")
+        print_error(f"{counted(done.scenes, 'scene')} processed, {done.failures} failed")
     if done.failures:
-        raise InputError(f"{done.failures} of {done.scenes} scenes have no answer; {done.first}")
+        scenes_in_all = counted(done.scenes, "scene")
+        raise InputError(f"{done.failures} of {scenes_in_all} without a result; {done.first}")
     return 0
 
 
@@ -132,9 +137,9 @@ def _interrupted(output: Path, done: int, whole: int) -> str:
     """Return the kept part of an interrupted batch, and the command that resumes it."""
     journal = output.with_name(f"{output.name}.journal")
     if not journal.exists():
-        return "exactpt: interrupted: nothing was answered yet"
-    share = f"{100 * done // whole}% of the input" if done else "what was answered before"
+        return "exactpt: interrupted: there is no result yet"
+    share = f"{100 * done // whole}% of the input" if done else "what was done before"
     return (
-        f"exactpt: interrupted: {share} is answered, in {output.name}.part and {journal.name}; "
+        f"exactpt: interrupted: {share} is done, in {output.name}.part and {journal.name}; "
         f"the same command goes on from there"
     )

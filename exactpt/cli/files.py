@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 import click
 
+from exactpt.brief import counted
 from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
 from exactpt.cli.terminal import name_in_words, print_error, print_output
 from exactpt.errors import InputError
@@ -131,7 +132,9 @@ def convert(
         for line in remarks:
             print_error(line)
         if is_scene:
-            print_output(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
+            bodies = counted(len(scene.bodies), "body", "bodies")
+            vertices = counted(scene.vertex_count, "vertex", "vertices")
+            print_output(f"{bodies}, {vertices}: {target}")
     return 0
 
 
@@ -147,7 +150,7 @@ def _what_touches(scene: Scene) -> list[str]:
         return []
     names = [name_in_words(body.name) for body in scene.bodies]
     some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
-    more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
+    more = [counted(len(pairs) - _FEW, "more pair")] if len(pairs) > _FEW else []
     return [
         f"bodies touch at the start, so that the first contact is there: {', '.join(some + more)}"
     ]
@@ -171,9 +174,13 @@ class _WithFamilies(click.Command):
                 )
 
 
+SEED: Final = 4
+"""The seed of a scene if none is given: with it, most families have a first contact later on."""
+
+
 @click.command(cls=_WithFamilies)
 @click.argument("family")
-@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the scene.")
+@click.option("--seed", type=int, default=SEED, show_default=True, help="Seed of the scene.")
 @output("The scene file; by default standard output.")
 def generate(family: str, seed: int, output: Path | None) -> int:
     """Make a scene of a family; a seed gives the same scene on every machine.

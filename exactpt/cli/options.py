@@ -102,6 +102,28 @@ TILING = click.option(
 )
 
 
+IGNORE = click.option(
+    "--ignore",
+    multiple=True,
+    metavar="NAME,NAME...",
+    help="Bodies whose contacts with each other are ignored; for --method pairs or auto. "
+    'A name with a comma stands in double quotes: "a,b",c.',
+)
+AFTER_START = click.option(
+    "--after-start",
+    is_flag=True,
+    help="Find the first new contact: bodies that touch at the start count when they have parted "
+    "and touch again, or begin to overlap; for --method pairs or auto.",
+)
+BETWEEN = click.option(
+    "--between",
+    multiple=True,
+    metavar="NAME,NAME",
+    help="Two bodies whose contacts with each other count, and no others (repeatable); for "
+    "--method pairs or auto.",
+)
+
+
 def _keep_bound(ctx: click.Context, param: click.Parameter, value: int | None) -> None:
     ctx.meta[f"exactpt.{param.name}"] = value
 

@@ -7,6 +7,7 @@ from typing import Literal
 
 import click
 
+from exactpt.brief import counted
 from exactpt.cli.options import (
     MOMENT,
     QUIET,
@@ -151,7 +152,10 @@ def demo(output: Path, *, show: bool) -> int:
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
     film = film_of(given, tiling="auto")
     bodies = ", ".join(body.name for body in given.bodies)
-    print_output(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
+    print_output(
+        f"{counted(len(given.bodies), 'body', 'bodies')}: {bodies}",
+        *answer_in_words(given, film.contact),
+    )
     write_atomically(output, page_of(film, title="exactpt demo"))
     print_output(f"the animation is in {output}: open it in a browser (or: exactpt demo --open)")
     proof = prove(given)

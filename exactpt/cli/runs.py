@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.options import (
+    AFTER_START,
+    BETWEEN,
+    IGNORE,
     QUIET,
     RATIONAL,
     SCENE,
@@ -44,7 +47,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @SCENE
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 @click.option("--until", type=RATIONAL, help="Search up to this time.")
 @click.option("--all", "every", is_flag=True, help="Print all intervals in which bodies meet.")
 @click.option(
@@ -62,31 +65,14 @@ if TYPE_CHECKING:
     "--proof or, for bodies that a tiling can hold, --max-events is given, or many coefficients "
     "are out of the range of doubles.",
 )
-@click.option(
-    "--ignore",
-    multiple=True,
-    metavar="NAME,NAME...",
-    help="Bodies whose contacts with each other are ignored; for --method pairs or auto. "
-    'A name with a comma stands in double quotes: "a,b",c.',
-)
-@click.option(
-    "--after-start",
-    is_flag=True,
-    help="Find the first new contact: bodies that touch at the start count when they have parted "
-    "and touch again, or begin to overlap; for --method pairs or auto.",
-)
-@click.option(
-    "--between",
-    multiple=True,
-    metavar="NAME,NAME",
-    help="Two bodies whose contacts with each other count, and no others (repeatable); for "
-    "--method pairs or auto.",
-)
+@IGNORE
+@AFTER_START
+@BETWEEN
 @click.option("--since", type=RATIONAL, help="Search from this time on.")
 @click.option(
     "--proof",
     type=click.Path(path_type=Path),
-    help="Write a proof of the answer; python3 -I exactpt/proof_check.py SCENE PROOF checks it.",
+    help="Write a proof of the result; python3 -I exactpt/proof_check.py SCENE PROOF checks it.",
 )
 @click.option(
     "--certificate",

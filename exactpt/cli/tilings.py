@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shlex
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -104,55 +104,106 @@ def _write_checker(ctx: click.Context, option: click.Parameter, path: Path | Non
     ctx.exit()
 
 
-def _begins_as_certificate(path: Path) -> bool:
-    """Return True for a file, not a pipe, that exactpt collide --certificate has written."""
+def _begins_with(path: Path, word: bytes) -> bool:
+    """Return True for a file, not a pipe, that begins with a word."""
     if not path.is_file():
         return False
     with path.open("rb") as file:
-        return file.read(13) == b"exactpt-apart"
+        return file.read(len(word)) == word
 
 
-def _check_by_both(path: Path, *, quiet: bool, max_seconds: float | None) -> int:
-    """Have two checkers verify the proofs in a folder, or a certificate; they must agree.
+def _files_of_proof(scene: Path, proof: Path | None) -> tuple[Path, Path] | None:
+    """Return the scene's file and that of its proof or certificate; None to check a scene.
 
-    Where cgal_check is not installed, a certificate is verified by one.
+    A proof that is given alone has its scene beside it.
+
+    Raises:
+        InputError: if there is none beside it.
+    """
+    from exactpt.proof.emit import beside
+
+    if proof is not None:
+        return scene, proof
+    is_proof = _begins_with(scene, b"exactpt-proof")
+    if not is_proof and not _begins_with(scene, b"exactpt-apart"):
+        return None
+    if not beside(scene).is_file():
+        kind = "proof" if is_proof else "certificate"
+        raise InputError(
+            f"{scene}: a {kind} needs its scene, and {beside(scene).name} is not beside it: "
+            f"exactpt check SCENE {scene}"
+        )
+    return beside(scene), scene
+
+
+@dataclass(frozen=True)
+class _Verdict:
+    """What two checkers say of a proof.
+
+    Attributes:
+        accepted: whether both accept it.
+        statement: what is proved, or why it is rejected, by the checker in Python.
+        by_cgal: what `cgal_check` says of that: "agrees", or "DISAGREES: ..."; None if it is not
+            installed.
+        why: why it is not.
+    """
+
+    accepted: bool
+    statement: str
+    by_cgal: str | None
+    why: str = ""
+
+    def lines(self) -> list[str]:
+        """Return the verdict in words."""
+        return [self.statement] + ([f"cgal_check {self.by_cgal}"] if self.by_cgal else [])
+
+    def to_json(self) -> dict[str, object]:
+        """Return the verdict as a JSON object, see docs/format.md."""
+        return {"ok": self.accepted, "statement": self.statement, "cgal_check": self.by_cgal}
+
+
+def _verdict_of_both(files: Path | tuple[Path, Path], max_seconds: float | None) -> _Verdict:
+    """Have two checkers verify the proofs in a folder, or a scene and its proof; they must agree.
+
+    Where cgal_check is not installed, a certificate or a proof is verified by one.
     """
     from exactpt import check_apart, proof_check
     from exactpt.cgal import check_proof, check_proofs, find_program
     from exactpt.files import read_bytes
-    from exactpt.proof.emit import beside
 
-    checker: Any = proof_check if path.is_dir() else check_apart
+    is_apart = isinstance(files, tuple) and _begins_with(files[1], b"exactpt-apart")
+    checker: Any = check_apart if is_apart else proof_check
     try:
-        if path.is_dir():
-            by_python = str(checker.check_chain(path))
+        if isinstance(files, tuple):
+            statement = str(checker.check(*map(read_bytes, files)))
         else:
-            by_python = str(checker.check(read_bytes(beside(path)), read_bytes(path)))
+            statement = str(checker.check_chain(files))
     except checker.Rejected as rejected:
-        by_python = str(rejected)
+        statement = str(rejected)
     except checker.NoProofError as refused:
-        raise InputError(f"{path}: {refused}") from None
+        where = files[1] if isinstance(files, tuple) else files
+        raise InputError(f"{where}: {refused}") from None
     except checker.Exhausted as exhausted:
         raise BudgetExceeded(str(exhausted), None) from None
-    accepted, lines, agree = by_python.startswith("accepted: "), [by_python], True
+    accepted = statement.startswith("accepted: ")
     try:
         find_program()
     except InputError as missing:
-        if path.is_dir():
+        if isinstance(files, Path):
             raise
-        print_error(f"verified by one checker: {missing}")
+        return _Verdict(accepted, statement, None, str(missing))
+    if isinstance(files, tuple):
+        verdict = check_proof(*files, max_seconds=max_seconds)
     else:
-        check = check_proofs if path.is_dir() else partial(check_proof, beside(path))
-        verdict = check(path, max_seconds=max_seconds)
-        agree = by_python == verdict.line if accepted else not verdict.accepted
-        lines.append(f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
-    if not quiet:
-        print_output(*lines)
-    return 0 if accepted and agree else 1
+        verdict = check_proofs(files, max_seconds=max_seconds)
+    agrees = statement == verdict.line if accepted else not verdict.accepted
+    by_cgal = "agrees" if agrees else f"DISAGREES: {verdict.line}"
+    return _Verdict(accepted and agrees, statement, by_cgal)
 
 
 @click.command()
 @SCENE
+@click.argument("proof", type=click.Path(path_type=Path), metavar="[PROOF]", required=False)
 @click.option(
     "--write-checker",
     metavar="FILE",
@@ -186,22 +237,26 @@ def _check_by_both(path: Path, *, quiet: bool, max_seconds: float | None) -> int
 @budget
 def check(
     scene: Path,
+    proof: Path | None,
     as_json: bool,
     quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    """Have an independent program verify a proof, every tiling and every event time.
+    """Have independent programs verify a proof, or of a scene every tiling and event time.
 
-    Of a folder that exactpt simulate --proof has written: have two checkers verify its proofs,
-    and that each part goes on where the one before ends. Of a certificate that exactpt collide
-    --certificate has written, with FILE.scene.json beside it: have both verify it.
+    A scene is simulated; cgal_check verifies a proof of it, every tiling and every event time. A
+    proof or a certificate that exactpt collide --proof or --certificate has written is verified
+    by two checkers; if its scene is not given, it is FILE.scene.json beside it. So are all proofs
+    in a folder that exactpt simulate --proof has written, each of which must go on where the one
+    before ends.
 
     \b
     Examples:
       exactpt check scene.json
-      exactpt check contact.apart
+      exactpt check scene.json contact.proof
+      exactpt check contact.apart --json
       exactpt check scene.json --json
       exactpt check folder
       exactpt check --write-checker check.py
@@ -215,9 +270,17 @@ def check(
     """
     from exactpt.check import check_scene
 
-    if scene.is_dir() or _begins_as_certificate(scene):
+    if scene.is_dir() and proof is not None:
+        raise InputError(f"{scene}: a folder has its own proofs, leave {proof} out")
+    files = scene if scene.is_dir() else _files_of_proof(scene, proof)
+    if files is not None:
         with within_budget(max_seconds):
-            return _check_by_both(scene, quiet=quiet, max_seconds=max_seconds)
+            verdict = _verdict_of_both(files, max_seconds)
+        if verdict.why:
+            print_error(f"verified by one checker: {verdict.why}")
+        if not quiet:
+            print_output(*([json.dumps(verdict.to_json())] if as_json else verdict.lines()))
+        return 0 if verdict.accepted else 1
     try:
         with within_budget(max_seconds):
             given = load(scene)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.exchange import geojson
 from exactpt.exchange.bodies import Holes, body_of, free_name
@@ -223,9 +224,8 @@ def _body(path: _Path, name: str, holes: Holes) -> Body:
     first, frames = rests[0], [rest._at(path.times[0]) for rest in rests]
     for i, frame in enumerate(frames):
         if len(frame) != len(frames[0]):
-            raise InputError(
-                f"{path.where}, position {i}: {len(frame)} vertices, after {len(frames[0])}"
-            )
+            vertices = counted(len(frame), "vertex", "vertices")
+            raise InputError(f"{path.where}, position {i}: {vertices}, after {len(frames[0])}")
     by = [_translation(frames[0], frame) for frame in frames]
     moves = [move for move in by if move is not None]
     if len(moves) == len(by):

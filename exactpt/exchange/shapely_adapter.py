@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from numpy import errstate
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.exchange.bodies import Holes, Parts, body_of, scene_of
 from exactpt.exchange.shapes import Kind, Shape, rounded, rounded_rings, shapes_at, together
@@ -118,7 +119,7 @@ def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius:
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
-            f"geometry {shorten(name)} has {len(shapes)} parts, "
+            f"geometry {shorten(name)} has {counted(len(shapes), 'part')}, "
             "of which only polygons can be one body: see Scene.from_shapely"
         )
     return body_of(shapes[0], name, motion, holes=holes, radius=radius)

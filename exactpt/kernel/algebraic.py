@@ -217,7 +217,10 @@ class AlgebraicNumber(RealNumber):
             InputError: if the number is irrational.
         """
         if not self.simplified().is_rational:
-            raise InputError(f"an irrational number, {shorten(self)}: use .low, .high or float()")
+            raise InputError(
+                f"an irrational number, {shorten(self)}: use .low, .high or float(); "
+                "positions of bodies at it are decimals, by at(time, digits=30)"
+            )
         return int(self._low.numerator), int(self._low.denominator)
 
     def __hash__(self) -> int:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import lcm
-from typing import Final
+from typing import Final, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import FINE, AlgebraicNumber
@@ -45,6 +45,37 @@ def lowest_terms(n: IntPoly, d: IntPoly) -> tuple[IntPoly, IntPoly]:
     p, q = quotient(n, common), quotient(d, common)
     factor = QQ(n[-1] * q[-1], d[-1] * p[-1])
     return scale(p, ZZ(factor.numerator)), scale(q, ZZ(factor.denominator))
+
+
+@final
+class LateQuotient:
+    """The value of a quotient of polynomials at an algebraic number, computed when it is read.
+
+    Args:
+        n: the numerator.
+        d: the denominator.
+        time: the number.
+    """
+
+    __slots__ = ("_of", "_value")
+
+    def __init__(self, n: IntPoly, d: IntPoly, time: AlgebraicNumber) -> None:
+        self._of = n, d, time
+        self._value: AlgebraicNumber | None = None
+
+    def value(self) -> AlgebraicNumber:
+        """Return the value."""
+        if self._value is None:
+            self._value = quotient_at(*self._of)
+        return self._value
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, LateQuotient) and (
+            self._of == other._of or self.value() == other.value()
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.value())
 
 
 def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
     from exactpt.motion.rings import Outline, PartLike, Parts
+    from exactpt.motion.track import Track
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -382,15 +383,17 @@ class Body:
         if digits is None:
             return list(map(place, self._at(rational(t))))
         time = t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)
-        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
-        tracks = self._piece_after(passed[-1] if passed else time._low).tracks
         return [
             (
                 decimal_quotient(p.x, p.w, time, digits),
                 decimal_quotient(p.y, p.w, time, digits),
             )
-            for p in tracks
+            for p in self._tracks_just_after(time)
         ]
+
+    def _tracks_just_after(self, time: AlgebraicNumber) -> tuple[Track, ...]:
+        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
+        return self._piece_after(passed[-1] if passed else time._low).tracks
 
     def velocity_at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
         """Return the velocities of the vertices just after a rational time, exactly."""

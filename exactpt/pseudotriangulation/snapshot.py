@@ -1,4 +1,4 @@
-"""Snapshots: a tiling as plain data, at a rational time.
+"""Snapshots: a tiling as plain data, at a rational time, or just after an irrational one.
 
 Vertices are those of the scene. Infinitesimal copies of a vertex are contracted to it;
 faces without area are dropped, and edges along such a face are split at its vertices.
@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, final
 from exactpt.brief import call_in_brief, counted, cut, record_in_brief
 from exactpt.geometry.predicates import orientation
 from exactpt.indices import HalfEdge
-from exactpt.kernel.numbers import QQ, fraction, parse_rational
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic_value import LateQuotient
+from exactpt.kernel.numbers import QQ, fraction, parse_rational, rational
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE
 
@@ -29,28 +31,43 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A vertex of the scene and its position."""
+    """A vertex of the scene and its position, which is computed when it is read."""
 
     body: str
     vertex: int
-    _x: QQ
-    _y: QQ
+    _x: QQ | LateQuotient
+    _y: QQ | LateQuotient
 
     @property
-    def x(self) -> Fraction:
-        """The exact coordinate."""
-        return fraction(self._x)
+    def x(self) -> Fraction | AlgebraicNumber:
+        """The exact coordinate: a `Fraction` at a rational time."""
+        return _number(self._x)
 
     @property
-    def y(self) -> Fraction:
-        """The exact coordinate."""
-        return fraction(self._y)
+    def y(self) -> Fraction | AlgebraicNumber:
+        """The exact coordinate: a `Fraction` at a rational time."""
+        return _number(self._y)
 
     def __reduce__(self) -> tuple[object, ...]:
+        if isinstance(self._x, LateQuotient) or isinstance(self._y, LateQuotient):
+            return Node, (self.body, self.vertex, self._x, self._y)
         return node_of, (self.body, self.vertex, str(self._x), str(self._y))
 
     def __repr__(self) -> str:
-        return call_in_brief("Node", self.body, self.vertex, str(self._x), str(self._y))
+        places = [
+            f"{float(c)!r}..." if isinstance(c, AlgebraicNumber) else str(rational(c))
+            for c in (self.x, self.y)
+        ]
+        return call_in_brief("Node", self.body, self.vertex, *places)
+
+
+def _number(value: QQ | LateQuotient) -> Fraction | AlgebraicNumber:
+    return value.value() if isinstance(value, LateQuotient) else fraction(value)
+
+
+def _json_of(value: Fraction | AlgebraicNumber) -> object:
+    """Return a rational number as text, another one as `AlgebraicNumber.to_json` does."""
+    return value.to_json() if isinstance(value, AlgebraicNumber) else str(rational(value))
 
 
 def node_of(body: str, vertex: int, x: str, y: str) -> Node:
@@ -113,23 +130,37 @@ class Snapshot:
         faces: the pseudo-triangles.
     """
 
-    _at: QQ
+    _at: QQ | AlgebraicNumber
     tiling: str
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
 
     def __reduce__(self) -> tuple[object, ...]:
+        if isinstance(self._at, AlgebraicNumber):
+            return Snapshot, (self._at, self.tiling, self.nodes, self.edges, self.faces)
         return snapshot_of, (str(self._at), self.tiling, self.nodes, self.edges, self.faces)
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.nodes), 'node')}, {counted(len(self.faces), 'face')}"
         return f"<Snapshot of the tiling {self.tiling} at t = {cut(str(self._at), 60)}: {counts}>"
 
+    def placed_at(self, time: AlgebraicNumber, vertices: Vertices) -> Snapshot:
+        """Return the same tiling with its nodes where they are at an irrational time."""
+        nodes = [
+            Node(
+                moving.body.name, i,
+                LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time),
+            )
+            for moving in vertices.bodies
+            for i, path in enumerate(moving.body._tracks_just_after(time))
+        ]  # fmt: skip
+        return Snapshot(time, self.tiling, tuple(nodes), self.edges, self.faces)
+
     @property
-    def at(self) -> Fraction:
-        """The time; the tiling is the one at that time itself."""
-        return fraction(self._at)
+    def at(self) -> Fraction | AlgebraicNumber:
+        """The time; the tiling is the one at that time itself, or just after an irrational one."""
+        return self._at if isinstance(self._at, AlgebraicNumber) else fraction(self._at)
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
@@ -145,7 +176,7 @@ class Snapshot:
         """
         edges = []
         for face in self.faces:
-            tip = max(face.corners, key=lambda v: (self.nodes[v]._x, -self.nodes[v]._y))
+            tip = max(face.corners, key=lambda v: (self.nodes[v].x, -self.nodes[v].y))
             edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
         return tuple(sorted(edges))
 
@@ -162,10 +193,10 @@ class Snapshot:
                 face |= {"body": f.body, "level": f.level}
             faces.append(face)
         data: dict[str, object] = {
-            "at": str(self._at),
+            "at": _json_of(self.at),
             "tiling": self.tiling,
             "vertices": [
-                {"body": n.body, "vertex": n.vertex, "x": str(n._x), "y": str(n._y)}
+                {"body": n.body, "vertex": n.vertex, "x": _json_of(n.x), "y": _json_of(n.y)}
                 for n in self.nodes
             ],
             "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],

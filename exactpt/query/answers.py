@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
-from exactpt.brief import record_in_brief
+from exactpt.brief import counted, record_in_brief
 from exactpt.kernel.numbers import QQ, fraction, place
 from exactpt.kernel.radicals import nearest_root_sum
 
@@ -74,7 +74,7 @@ class Located(NamedTuple):
     feature: NDArray[np.int64]
 
     def __repr__(self) -> str:
-        return f"<Located: {len(self.kind)} points>"
+        return f"<Located: {counted(len(self.kind), 'point')}>"
 
 
 class _Later:

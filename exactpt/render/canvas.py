@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, final
 
+from exactpt.brief import counted
 from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
 from exactpt.render.data import touched_edges
 from exactpt.render.labels import Named, labels
@@ -160,11 +161,11 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
     )
     tiles: tuple[Tile, ...] = ()
     lines: tuple[Line, ...] = ()
-    note = f"{len(scene.bodies)} bodies"
+    note = counted(len(scene.bodies), "body", "bodies")
     if still.tiling is not None:
         colours = {shape.name: shape.colour for shape in shapes}
         tiles, lines = _tiling(still.tiling, window, colours)
-        note += f" · {still.tiling.tiling} tiling, {len(tiles)} pseudo-triangles"
+        note += f" · {still.tiling.tiling} tiling, {counted(len(tiles), 'pseudo-triangle')}"
     caption, news = time_in_words(still.at), ""
     if still.contact is not None:
         caption = f"first contact at {time_in_words(still.contact.time)}"

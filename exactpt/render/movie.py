@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.budget import check_budget
@@ -185,7 +186,7 @@ def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Can
         window,
         time_in_words(film.end if contact is not None else t),
         "" if contact is None else contact_in_words(contact),
-        f"{sum(film.is_there(i, t) for i in range(len(bodies)))} bodies",
+        counted(sum(film.is_there(i, t) for i in range(len(bodies))), "body", "bodies"),
         tuple(
             Tile(
                 tuple(nodes[v] for v in tile.nodes),

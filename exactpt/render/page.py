@@ -7,6 +7,7 @@ from html import escape
 from importlib.resources import files
 from typing import TYPE_CHECKING, Final
 
+from exactpt.brief import counted
 from exactpt.render.data import data_of
 from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.plot import plot_of, strip_of
@@ -79,11 +80,10 @@ def _asset(name: str) -> str:
 def _summary(film: Film) -> str:
     scene = film.scene
     count = sum(len(step.changes) for step in film.steps)
-    return (
-        f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices, {film.tiling} tiling, "
-        f"{count} event{'s' * (count != 1)} from t = {scene._start} to "
-        f"{time_in_words(film.end.simplified())}"
-    )
+    bodies = counted(len(scene.bodies), "body", "bodies")
+    vertices = counted(scene.vertex_count, "vertex", "vertices")
+    span = f"from {time_in_words(scene._start)} to {time_in_words(film.end.simplified())}"
+    return f"{bodies}, {vertices}, {film.tiling} tiling, {counted(count, 'event')} {span}"
 
 
 def _variables() -> str:

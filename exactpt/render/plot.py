@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from exactpt.kernel.numbers import QQ, finite, nearest_float, rational
+from exactpt.kernel.numbers import QQ, finite, floor, nearest_float, rational
 from exactpt.render.fixed import near
 from exactpt.render.palette import FONT, style_of
 from exactpt.render.words import clean, short, time_in_words
@@ -56,7 +56,7 @@ def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
     times = {start + span * k / SAMPLES for k in range(SAMPLES + 1)}
     times |= {min(near(t, span), end) for t in (least.time, *(p.end for p in gap.pieces))}
     curve = [(t, finite(gap(t))) for t in sorted(times)]
-    digits = 6 + len(str(int(max(abs(start), abs(end)) / span)))  # a millionth of the span
+    digits = 6 + len(str(floor(max(abs(start), abs(end)) / span)))  # a millionth of the span
     top = max(*(d for _, d in curve), 0.0 if below is None else nearest_float(below))
     scale = top or 1.0
     return Plot(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import nearest_float, rational
+from exactpt.kernel.numbers import nearest_float, parse_rational, rational
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,13 +33,20 @@ def short(text: str, limit: int = 24) -> str:
 
 
 def time_in_words(time: AlgebraicNumber | QQ, digits: int = 12) -> str:
-    """``t = 5/2``, or ``t ≈ 3.1415926`` for an irrational number or a long fraction."""
+    """Return a time in decimals: ``t = 2.5``, or ``t ≈ 0.333333333333 (1/3)``.
+
+    An exact fraction follows only if it is short, and no irrational number has one.
+    """
     low = getattr(time, "low", time)
-    exact = str(rational(low))
-    if low == getattr(time, "high", time) and len(exact) <= 16:
-        return f"t = {exact}"
     near = float(time) if isinstance(time, AlgebraicNumber) else nearest_float(time)
-    return f"t ≈ {near:.{digits}g}"
+    decimal = f"{near:.{digits}g}"
+    if low != getattr(time, "high", time):
+        return f"t ≈ {decimal}"
+    exact = rational(low)
+    if math.isfinite(near) and parse_rational(decimal) == exact:
+        return f"t = {decimal}"
+    fraction = str(exact)
+    return f"t ≈ {decimal} ({fraction})" if len(fraction) <= 16 else f"t ≈ {decimal}"
 
 
 def pair_in_words(pair: Pair) -> str:

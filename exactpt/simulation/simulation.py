@@ -22,6 +22,7 @@ from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import History, Log
+from exactpt.simulation.reported_contact import why_none
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
 from exactpt.tiling.catalogue import AUTO
@@ -297,10 +298,7 @@ class Simulation:
                 now and the next event, or if the run has ended with a contact.
         """
         if self.contact is not None:
-            raise InputError(
-                f"no tiling at a contact, t = {float(self.contact.time)!r}: "
-                "there is one before it, where run(until=...) stops"
-            )
+            raise InputError(f"no tiling: {why_none(self.contact)}")
         with self._run.alone:
             self._run.check_whole()
             return self._spaces.space(self._run.mutable.kinetic, at)
@@ -315,7 +313,25 @@ class Simulation:
 
     @property
     def tiling(self) -> Snapshot:
-        """Same as `snapshot`: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
+        """The tiling now: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``.
+
+        At an irrational time of an event it is the tiling just after it. Its ``at`` and the
+        coordinates of its nodes are `AlgebraicNumber` then, and are computed when they are read.
+
+        >>> import exactpt
+        >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1], [0, 0, "1/2"]))
+        >>> places = {"q": (-1, 3), "r": (1, 5), "s": (7, 4), "t": (3, 1)}
+        >>> others = [exactpt.Body(name, [place]) for name, place in places.items()]
+        >>> simulation = exactpt.Simulation(exactpt.Scene([p, *others], time=(0, 4)))
+        >>> for _ in range(2): events = simulation.step()
+        >>> tiling = simulation.tiling
+        >>> tiling.at.polynomial, tiling.nodes[0].x == tiling.at, len(tiling.faces)
+        ((-5, 1, 1), True, 3)
+        """
+        if not self.now.simplified().is_rational:
+            with self._run.alone:
+                self._run.check_whole()
+                return self._spaces.tiling_just_after(self._run.mutable.kinetic)
         return self.snapshot()
 
     def locate(self, point: PointLike) -> Place:

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, Rational, rational, show
+from exactpt.pseudotriangulation.snapshot import snapshot
 
 if TYPE_CHECKING:
     from exactpt.certificates.queue import EventTime
+    from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query.space import FreeSpace
     from exactpt.tiling.tiling import Tiling
 
@@ -34,11 +37,35 @@ class SpaceCache:
             self._now, self._space = now, FreeSpace(kinetic, t)
         return self._space
 
+    @staticmethod
+    def tiling_just_after(kinetic: Tiling) -> Snapshot:
+        """Return the tiling just after the irrational time now, placed at that time.
+
+        Until the next event the nodes, edges and faces are the same at all times: they are read at
+        a rational one.
+        """
+        now, following = kinetic.now, kinetic.next_number()
+        limit = AlgebraicNumber(kinetic.certifier.end)
+        if following is not None and following < limit:
+            limit = following
+        while now._high >= limit._low:
+            now.refine()
+            if not limit.is_rational:
+                limit.refine()
+        later = now._high
+        mesh = kinetic.mesh_now(later)
+        return snapshot(kinetic.vertices, mesh, kinetic.name, later).placed_at(
+            now, kinetic.vertices
+        )
+
 
 def _now(kinetic: Tiling) -> QQ:
     now = kinetic.now.simplified()
     if not now.is_rational:
-        raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
+        raise InputError(
+            f"now, t = {float(now)!r}, is not rational: give a rational time after it and before "
+            "the next event, simulation.space(at=...)"
+        )
     return now._low
 
 
@@ -49,6 +76,6 @@ def _before_next_event(kinetic: Tiling, t: QQ) -> QQ:
     )
     if late or kinetic.now.compare_rational(t) > 0:
         raise InputError(
-            f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
+            f"t = {show(t)} is not between now, t = {float(kinetic.now)!r}, and the next event"
         )
     return t

@@ -7,6 +7,8 @@ it finds is shrunken, and becomes a pytest file. `assert_same_contact` compares 
 Hypothesis draws scenes from (pip install 'exactpt[testing]'). docs/testing.md is the tutorial.
 """
 
+from importlib import import_module
+
 from exactpt.testing.checking import Counterexample, Report, check
 from exactpt.testing.comparing import assert_same_contact
 from exactpt.testing.families import FAMILIES, LINEAR, make_question
@@ -30,3 +32,14 @@ __all__ = [
     "shrink",
     "truths",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """Return the subpackage `space` or the module `strategies`, imported on first use (PEP 562)."""
+    if name in ("space", "strategies"):
+        return import_module(f"exactpt.testing.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*__all__, "space", "strategies"})

@@ -124,7 +124,7 @@ CALLS = {
     # exactpt: one entry for each name, under this name
     "Affine": lambda w: exactpt.Affine([[[1, w.unit], 0], [0, 1]], x=[0, w.unit]),
     "AlgebraicNumber": lambda w: exactpt.AlgebraicNumber(w.unit),
-    "Approach": lambda w: exactpt.first_within(w.scene, distance=1, norm="euclidean"),
+    "Approach": lambda w: exactpt.first_within(w.scene, distance=1),
     "Body": lambda w: w.moving,
     "Bounce": lambda w: list(
         exactpt.Simulation(w.scene).run(6, on_contact=exactpt.Bounce(fixed=[w.wall]))
