@@ -31,38 +31,36 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A vertex of the scene and its position, which is computed when it is read."""
+    """A vertex of the scene and its position.
+
+    ``_x`` and ``_y`` are its coordinates at a rational time. Those at an irrational time,
+    ``_late``, are computed when they are read.
+    """
 
     body: str
     vertex: int
-    _x: QQ | LateQuotient
-    _y: QQ | LateQuotient
+    _x: QQ
+    _y: QQ
+    _late: tuple[LateQuotient, LateQuotient] | None = None
 
     @property
     def x(self) -> Fraction | AlgebraicNumber:
         """The exact coordinate: a `Fraction` at a rational time."""
-        return _number(self._x)
+        return fraction(self._x) if self._late is None else self._late[0].value()
 
     @property
     def y(self) -> Fraction | AlgebraicNumber:
         """The exact coordinate: a `Fraction` at a rational time."""
-        return _number(self._y)
+        return fraction(self._y) if self._late is None else self._late[1].value()
 
     def __reduce__(self) -> tuple[object, ...]:
-        if isinstance(self._x, LateQuotient) or isinstance(self._y, LateQuotient):
-            return Node, (self.body, self.vertex, self._x, self._y)
-        return node_of, (self.body, self.vertex, str(self._x), str(self._y))
+        return node_of, (self.body, self.vertex, str(self._x), str(self._y), self._late)
 
     def __repr__(self) -> str:
-        places = [
-            f"{float(c)!r}..." if isinstance(c, AlgebraicNumber) else str(rational(c))
-            for c in (self.x, self.y)
-        ]
-        return call_in_brief("Node", self.body, self.vertex, *places)
-
-
-def _number(value: QQ | LateQuotient) -> Fraction | AlgebraicNumber:
-    return value.value() if isinstance(value, LateQuotient) else fraction(value)
+        if self._late is None:
+            return call_in_brief("Node", self.body, self.vertex, str(self._x), str(self._y))
+        x, y = (f"{float(coordinate)!r}..." for coordinate in (self.x, self.y))
+        return call_in_brief("Node", self.body, self.vertex, x, y)
 
 
 def _json_of(value: Fraction | AlgebraicNumber) -> object:
@@ -70,9 +68,11 @@ def _json_of(value: Fraction | AlgebraicNumber) -> object:
     return value.to_json() if isinstance(value, AlgebraicNumber) else str(rational(value))
 
 
-def node_of(body: str, vertex: int, x: str, y: str) -> Node:
+def node_of(
+    body: str, vertex: int, x: str, y: str, late: tuple[LateQuotient, LateQuotient] | None = None
+) -> Node:
     """Return the node of a pickle."""
-    return Node(body, vertex, parse_rational(x), parse_rational(y))
+    return Node(body, vertex, parse_rational(x), parse_rational(y), late)
 
 
 @final
@@ -130,37 +130,41 @@ class Snapshot:
         faces: the pseudo-triangles.
     """
 
-    _at: QQ | AlgebraicNumber
+    _at: QQ
     tiling: str
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
+    _time: AlgebraicNumber | None = None
+    """The irrational time just before ``_at``, at which the nodes are placed, or None."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        if isinstance(self._at, AlgebraicNumber):
-            return Snapshot, (self._at, self.tiling, self.nodes, self.edges, self.faces)
-        return snapshot_of, (str(self._at), self.tiling, self.nodes, self.edges, self.faces)
+        at, time = str(self._at), self._time
+        return snapshot_of, (at, self.tiling, self.nodes, self.edges, self.faces, time)
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.nodes), 'node')}, {counted(len(self.faces), 'face')}"
-        return f"<Snapshot of the tiling {self.tiling} at t = {cut(str(self._at), 60)}: {counts}>"
+        time = cut(str(self._at) if self._time is None else str(self._time), 60)
+        return f"<Snapshot of the tiling {self.tiling} at t = {time}: {counts}>"
 
     def placed_at(self, time: AlgebraicNumber, vertices: Vertices) -> Snapshot:
-        """Return the same tiling with its nodes where they are at an irrational time."""
+        """Return the same tiling with its nodes where they are at an irrational time before."""
+        paths = [
+            path for moving in vertices.bodies for path in moving.body._tracks_just_after(time)
+        ]
         nodes = [
             Node(
-                moving.body.name, i,
-                LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time),
+                node.body, node.vertex, node._x, node._y,
+                (LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time)),
             )
-            for moving in vertices.bodies
-            for i, path in enumerate(moving.body._tracks_just_after(time))
+            for node, path in zip(self.nodes, paths, strict=True)
         ]  # fmt: skip
-        return Snapshot(time, self.tiling, tuple(nodes), self.edges, self.faces)
+        return Snapshot(self._at, self.tiling, tuple(nodes), self.edges, self.faces, time)
 
     @property
     def at(self) -> Fraction | AlgebraicNumber:
         """The time; the tiling is the one at that time itself, or just after an irrational one."""
-        return self._at if isinstance(self._at, AlgebraicNumber) else fraction(self._at)
+        return fraction(self._at) if self._time is None else self._time
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
@@ -176,7 +180,7 @@ class Snapshot:
         """
         edges = []
         for face in self.faces:
-            tip = max(face.corners, key=lambda v: (self.nodes[v].x, -self.nodes[v].y))
+            tip = max(face.corners, key=lambda v: (self.nodes[v]._x, -self.nodes[v]._y))
             edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
         return tuple(sorted(edges))
 
@@ -213,9 +217,10 @@ def snapshot_of(
     nodes: tuple[Node, ...],
     edges: tuple[Edge, ...],
     faces: tuple[Face, ...],
+    time: AlgebraicNumber | None = None,
 ) -> Snapshot:
     """Return the snapshot of a pickle."""
-    return Snapshot(parse_rational(at), tiling, nodes, edges, faces)
+    return Snapshot(parse_rational(at), tiling, nodes, edges, faces, time)
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, rational, show
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.pseudotriangulation.snapshot import snapshot
 
 if TYPE_CHECKING:
@@ -44,19 +44,25 @@ class SpaceCache:
         Until the next event the nodes, edges and faces are the same at all times: they are read at
         a rational one.
         """
-        now, following = kinetic.now, kinetic.next_number()
-        limit = AlgebraicNumber(kinetic.certifier.end)
+        now, limit = kinetic.now, AlgebraicNumber(kinetic.certifier.end)
+        following = kinetic.next_number()
         if following is not None and following < limit:
             limit = following
-        while now._high >= limit._low:
-            now.refine()
-            if not limit.is_rational:
-                limit.refine()
-        later = now._high
-        mesh = kinetic.mesh_now(later)
-        return snapshot(kinetic.vertices, mesh, kinetic.name, later).placed_at(
-            now, kinetic.vertices
-        )
+        later = _short_between(now, limit)
+        tiling = snapshot(kinetic.vertices, kinetic.mesh_now(later), kinetic.name, later)
+        return tiling.placed_at(now, kinetic.vertices)
+
+
+def _short_between(now: AlgebraicNumber, limit: AlgebraicNumber) -> QQ:
+    """Return the first multiple of 2^-k after a time, for the least k such that it is before."""
+    bits = 0
+    while True:
+        scaled = now * power_of_two(bits)
+        above = int(scaled) + (scaled.compare_rational(0) > 0)  # int rounds towards zero
+        q = above * power_of_two(-bits)
+        if limit.compare_rational(q) > 0:
+            return q
+        bits += 1
 
 
 def _now(kinetic: Tiling) -> QQ:

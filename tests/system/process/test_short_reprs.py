@@ -81,7 +81,7 @@ def test_a_small_value_has_its_usual_repr(tmp_path):
         "Pair(kind='vertex-edge', body="
     )
     assert repr(exactpt.Simulation(world.scene).tiling) == (
-        "<Snapshot of the tiling greedy at t = 0: 8 nodes, 5 faces>"
+        "<Snapshot of the tiling greedy at t = 0: 8 nodes, 2 faces>"
     )
 
 
