@@ -81,9 +81,12 @@ def exact_time(
 
 
 def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
-    """Return the time at which two vertices have one x, if `Piece.straight_x` knows both."""
+    """Return the time at which two vertices have one x, if `Piece.straight_x` knows both.
+
+    None if they have the same velocity: in a state that was forged.
+    """
     of_a, of_b = a[0].straight_x(a[1]), b[0].straight_x(b[1])
-    if of_a is None or of_b is None:
+    if of_a is None or of_b is None or of_a[1] == of_b[1]:
         return None
     return AlgebraicNumber((of_a[0] - of_b[0]) / (of_b[1] - of_a[1]))
 

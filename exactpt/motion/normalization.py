@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
 from exactpt.kernel.polynomial import substituted
@@ -20,6 +20,19 @@ if TYPE_CHECKING:
     from exactpt.motion.track import Track
 
 
+class Reach(NamedTuple):
+    """The numbers of a scene by which its normalisation is chosen.
+
+    Attributes:
+        x, y: the least and the greatest coordinate.
+        span: the start and the end of the time.
+    """
+
+    x: tuple[QQ, QQ]
+    y: tuple[QQ, QQ]
+    span: tuple[QQ, QQ]
+
+
 @final
 class Normalization:
     """A normalisation of space and time.
@@ -27,17 +40,24 @@ class Normalization:
     Attributes:
         center, scale, origin, time_scale: x' = (x - center[0]) / 2^scale[0], likewise y;
             t' = (t - origin) / 2^time_scale.
+        reach: the numbers by which it was chosen; None if it was not chosen for a scene.
         is_identity: whether it changes nothing.
         only_scales: whether it shifts nothing.
     """
 
     def __init__(
-        self, center: tuple[QQ, QQ], scale: tuple[int, int], origin: QQ, time_scale: int
+        self,
+        center: tuple[QQ, QQ],
+        scale: tuple[int, int],
+        origin: QQ,
+        time_scale: int,
+        reach: Reach | None = None,
     ) -> None:
         self.center = center
         self.scale = scale
         self.origin = origin
         self.time_scale = time_scale
+        self.reach = reach
         self.only_scales: bool = center == (QQ(0), QQ(0)) and origin == 0
         self.is_identity: bool = self.only_scales and scale == (0, 0) and time_scale == 0
 
@@ -107,26 +127,38 @@ def normalization_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> No
     It shifts and scales only where needed, so that the integers of an ordinary scene stay
     unchanged.
     """
-    cx, sx = _axis([p[0] for p in points])
-    cy, sy = _axis([p[1] for p in points])
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    return normalization_of(Reach((min(xs), max(xs)), (min(ys), max(ys)), (start, end)))
+
+
+def normalization_of(reach: Reach) -> Normalization:
+    """Return the normalisation for a scene of this reach, see `normalization_for`.
+
+    Its exponents are differences of the lengths of these numbers: so they are bounded by the
+    length of the text in which the numbers were read.
+    """
+    start, end = reach.span
+    cx, sx = _axis(*reach.x)
+    cy, sy = _axis(*reach.y)
     span = end - start
     r = binary_exponent(span)
     r = 0 if -10 <= r <= 10 else r
     far = max(abs(start), abs(end)) > 16 * span
-    return Normalization((cx, cy), (sx, sy), start if far else QQ(0), r)
+    return Normalization((cx, cy), (sx, sy), start if far else QQ(0), r, reach)
 
 
-def _axis(values: list[QQ]) -> tuple[QQ, int]:
-    """Return the center and the scale of one coordinate.
+def _axis(low: QQ, high: QQ) -> tuple[QQ, int]:
+    """Return the center and the scale of a coordinate between two values.
 
     The center is the value of least size if the others are near it: then doubles stay
-    doubles, being multiples of its last bit.
+    doubles, being multiples of its last bit. If 0 is between the two, no value is near another
+    compared with its size, and the center is 0.
     """
-    extent = max(values) - min(values)
-    least = min(values, key=abs)
-    center = least if abs(least) > 16 * extent else QQ(0)
-    exponent = binary_exponent(extent or max(map(abs, values)))
-    return center, (0 if -20 <= exponent <= 20 else exponent)
+    extent = high - low
+    least = low if low > 0 else high
+    is_far = low * high > 0 and abs(least) > 16 * extent
+    exponent = binary_exponent(extent or max(abs(low), abs(high)))
+    return (least if is_far else QQ(0)), (0 if -20 <= exponent <= 20 else exponent)
 
 
 def binary_exponent(value: QQ) -> int:

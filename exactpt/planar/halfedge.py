@@ -106,6 +106,10 @@ class PlanarMap:
         other.following, other.previous = self.following[:], self.previous[:]
         return other
 
+    def is_used(self, h: HalfEdge) -> bool:
+        """Return True if a handle is that of a half-edge of the map."""
+        return 0 <= h < len(self.origin) and self.origin[h] != NO_VERTEX
+
     def target(self, h: HalfEdge) -> VertexId:
         """Return the vertex where a half-edge ends."""
         return self.origin[h ^ 1]
@@ -204,6 +208,16 @@ class PlanarMap:
     def half_edges(self) -> list[HalfEdge]:
         """Return all half-edges in use, in increasing order."""
         return [HalfEdge(h) for h, v in enumerate(self.origin) if v != NO_VERTEX]
+
+    def audit_free(self) -> None:
+        """Check that a handle is free if and only if no half-edge has it.
+
+        Raises:
+            AuditError: if it is not so.
+        """
+        unused = [h for h, v in enumerate(self.origin) if v == NO_VERTEX]
+        if sorted([*self._free, *(h + 1 for h in self._free)]) != unused:
+            raise AuditError(f"the free handles are not those of the {len(unused)} without origin")
 
     def audit(self) -> None:
         """Check the links.

@@ -13,7 +13,15 @@ from librt.vecs import append, vec
 from mypy_extensions import u8
 
 from exactpt.errors import AuditError
-from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, VertexId, half_edge_vec
+from exactpt.indices import (
+    NO_HALF_EDGE,
+    NO_VERTEX,
+    Ends,
+    HalfEdge,
+    VertexId,
+    half_edge_vec,
+)
+from exactpt.kernel.stored import Stored
 from exactpt.planar.halfedge import PlanarMap, twin
 
 FREE: Final = 0
@@ -253,15 +261,34 @@ class Mesh:
             "ring_edge": list(self.ring_edge),
         }
 
-    def resume(self, state: dict[str, list[Any]]) -> None:
-        """Have these half-edges and marks."""
+    def resume(self, state: Stored, vertices: int) -> None:
+        """Have these half-edges and marks.
+
+        Args:
+            state: what `state` returned.
+            vertices: the number of vertex ids.
+
+        Raises:
+            AuditError: if the free handles are others than those that are not in use.
+            InputError: if the lists do not belong together, or an entry is out of range.
+        """
+        origin = state["origin"].integers(int(NO_VERTEX), vertices - 1)
+        count = len(origin)
+        if count % 2:
+            raise state["origin"].refused("an even number of half-edges")
         self.map = PlanarMap.of(
-            state["origin"], state["following"], state["previous"], state["free"]
+            map(VertexId, origin),
+            map(HalfEdge, state["following"].integers(0, count - 1, length=count)),
+            map(HalfEdge, state["previous"].integers(0, count - 1, length=count)),
+            list(map(HalfEdge, state["free"].integers(0, count - 1))),
         )
-        self.region = vec[u8](state["region"])
-        self.corner = vec[bool](map(bool, state["corner"]))
-        self.boundary = vec[bool](map(bool, state["boundary"]))
-        self.ring_edge = half_edge_vec(state["ring_edge"])
+        self.map.audit_free()
+        self.region = vec[u8](state["region"].integers(FREE, INSIDE, length=count))
+        corner = state["corner"].integers(0, 1, length=count)
+        boundary = state["boundary"].integers(0, 1, length=count // 2)
+        self.corner, self.boundary = vec[bool](map(bool, corner)), vec[bool](map(bool, boundary))
+        ring_edge = state["ring_edge"].integers(int(NO_HALF_EDGE), count - 1, length=vertices)
+        self.ring_edge = half_edge_vec(map(HalfEdge, ring_edge))
 
     def labelling(self) -> list[frozenset[int]]:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""

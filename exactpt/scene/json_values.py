@@ -53,7 +53,7 @@ def parse_json(text: str) -> Json:
             parse_int=Number,
             parse_float=Number,
             parse_constant=Number,  # NaN and infinities: refused later, with their place
-            object_pairs_hook=_unique_keys,
+            object_pairs_hook=unique_keys,
         )
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
@@ -63,7 +63,12 @@ def parse_json(text: str) -> Json:
     return data
 
 
-def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+def unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+    """Return the object of these keys and values, for `json.loads`.
+
+    Raises:
+        InputError: if a key is there twice.
+    """
     result: dict[str, Json] = {}
     for key, value in pairs:
         if key in result:

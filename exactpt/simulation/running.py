@@ -57,6 +57,7 @@ class Run:
 
     Attributes:
         living: the scene with its tiling.
+        begun: the time at which the run began, before any change.
         margin: maximum distance in time between a response and its contact.
         pending: events that have been processed and not been reported.
         contact: the contact that has ended the run, or None.
@@ -68,11 +69,18 @@ class Run:
     """
 
     def __init__(
-        self, mutable: MutableScene, budget: Budget, observers: Sequence[Observer] = ()
+        self,
+        mutable: MutableScene,
+        budget: Budget,
+        observers: Sequence[Observer] = (),
+        *,
+        begun: QQ | None = None,
     ) -> None:
         self.mutable = mutable
         self.driver = Driver(mutable, observers=observers, budget=budget)
-        self.margin = _margin_of(mutable.scene)
+        scene = mutable.scene
+        self.begun = scene._start if begun is None else begun
+        self.margin = _margin_of(self.begun, scene._end)
         self.pending: deque[Event] = deque()
         self.contact: Contact | None = None
         self.contacts = 0
@@ -293,7 +301,7 @@ def begin(
         return run
 
 
-def _margin_of(scene: Scene) -> QQ:
+def _margin_of(begun: QQ, end: QQ) -> QQ:
     """About 2^-80 of the time span."""
-    span = scene._end - scene._start
+    span = end - begun
     return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)

@@ -6,40 +6,48 @@ restored run therefore takes the same steps as the saved one would have.
 
 Rationals are texts ``"p/q"``; doubles are JSON numbers (which Python writes and reads
 exactly); exact times are ``{"polynomial", "low", "high"}``.
+
+A file may be forged, with a valid checksum. Each value is therefore read by a method of `Stored`,
+which checks its type and range. No number of a file is taken as an exponent: those of the
+normalisation are computed from rationals, whose digits are in the file. A forged state may still
+break an invariant of the run, but neither the interpreter nor a budget.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from itertools import zip_longest
+from typing import Any, Final, TypeAlias
 
-from exactpt.certificates.certificate import KIND_COUNT
-from exactpt.certificates.certifier import Certifier
-from exactpt.certificates.queue import EventTime
+from exactpt.certificates.certifier import X_ORDER, Certifier
+from exactpt.certificates.queue import LARGEST, EventTime
 from exactpt.errors import InputError
-from exactpt.indices import VertexId
+from exactpt.indices import CertificateId, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import sign_at, square_free
-from exactpt.kernel.numbers import QQ, ZZ, parse_rational, shorten, show
+from exactpt.kernel.numbers import QQ, shorten, show
+from exactpt.kernel.stored import Stored
 from exactpt.kernel.sturm import count_roots, sturm_sequence
 from exactpt.motion.body import Body
-from exactpt.motion.normalization import Normalization
+from exactpt.motion.infinitesimal import ring_of_copies
+from exactpt.motion.normalization import Normalization, Reach, normalization_of
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, Pair
 from exactpt.simulation.event import Event
 from exactpt.tiling import catalogue
+from exactpt.tiling.catalogue import Bodies, Entry
 from exactpt.tiling.events import Stats
 from exactpt.tiling.start import make
 from exactpt.tiling.tiling import Tiling
 
 Data: TypeAlias = "dict[str, Any]"
-"""A JSON object that has been read; defects are detected where it is used."""
+"""A JSON object that is written."""
 
-_STATS = ("batches", "rebuilds", "flips", "most")
-
-_SLOTS = 64 * KIND_COUNT
-"""A bound, a vertex, on the slots of a queue (which has room for all up to the largest): 64 parts
-of each kind; a planar map of n vertices has less than 6 n half-edges."""
+_STATS: Final = ("batches", "rebuilds", "flips", "most")
+_CERTIFICATE_COUNTS: Final = ("made", "skipped", "zeros")
+_CONTACT_KINDS: Final = ("initial", "self", "vertex-edge", "vertex-vertex")
 
 
 def tiling_to_json(kinetic: Tiling) -> Data:
@@ -62,9 +70,8 @@ def tiling_to_json(kinetic: Tiling) -> Data:
             for moving in vertices.bodies
         ],
         "free": list(vertices.free),
-        "frame": _normalization_to_json(vertices.normalization)
-        | {"errors": list(vertices.enclosures.errors)},
-        "counts": [certifier.made, certifier.skipped, certifier.zeros],
+        "frame": _frame_to_json(vertices),
+        "counts": {name: getattr(certifier, name) for name in _CERTIFICATE_COUNTS},
         "stats": {"events": dict(stats.events)} | {name: getattr(stats, name) for name in _STATS},
         "queue": [
             [slot, _time_to_json(time)]
@@ -75,56 +82,151 @@ def tiling_to_json(kinetic: Tiling) -> Data:
     return {**data, **kinetic.state()}
 
 
-def _rings_from_json(data: Data, bodies: Sequence[Body]) -> list[list[tuple[VertexId, int]]]:
-    """Return the ring of each body: ids, every one used once, each with its vertex in the scene."""
-    rings = [[(v, index) for v, index in body["ring"]] for body in data["bodies"]]
-    ids = sorted([*(v for ring in rings for v, _ in ring), *data["free"]])
-    if ids != list(range(len(ids))):
-        raise InputError("a vertex is there twice, or not at all")
-    for body, ring in zip(bodies, rings, strict=True):
-        if {index for _, index in ring} != set(range(body.size)):
-            raise InputError(f"not the vertices of body {shorten(body.name)}")
-    return rings
-
-
-def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only: bool) -> Tiling:
+def tiling_from_json(data: Stored, bodies: Sequence[Body], last: QQ, *, exact_only: bool) -> Tiling:
     """Return the tiling with a saved state, for bodies with their motions, up to the ``last`` time.
 
     Raises:
-        InputError: if the state is of another time span, which the run would take for its own, or
-            does not have the vertices of the bodies.
+        InputError: if a value is not what `tiling_to_json` writes, or contradicts the bodies or
+            the time span.
     """
-    if parse_rational(data["end"]) != last:
-        raise InputError(f"the tiling ends at t = {shorten(data['end'])[1:-1]}, not {show(last)}")
+    end = data["end"].rational()
+    if end != last:
+        raise InputError(f"the tiling ends at t = {show(end)}, not {show(last)}")
+    entry = _entry_from_json(data, bodies)
+    vertices = _vertices_from_json(data, entry, bodies, end)
+    certifier = Certifier(vertices, QQ(0), end, exact_only=exact_only)
+    now = _time_from_json(data["now"], vertices)
+    certifier.move_to(now, _roots_from_json(data["roots_now"], now, len(vertices.all)))
+    _check_pieces(data["bodies"], vertices, now)
+    for name in _CERTIFICATE_COUNTS:
+        setattr(certifier, name, data["counts"][name].integer(0))
+    kinetic = make(entry, vertices, certifier, _stats_from_json(data["stats"]))
+    kinetic.resume(data)
+    for item in data["queue"].entries():
+        check_budget()
+        slot, time = item.entries(2)
+        certificate = CertificateId(slot.integer(0))
+        if not kinetic.has_part(certificate):
+            raise slot.refused("a certificate of this tiling")
+        kinetic.queue.schedule(certificate, _time_from_json(time, vertices))
+    return kinetic
+
+
+def _entry_from_json(data: Stored, bodies: Sequence[Body]) -> Entry:
+    """Return the entry of a saved tiling in the catalogue."""
+    kind = data["kind"].text(catalogue.known())
+    entry = catalogue.find(kind, convex=data["convex"].flag())
+    if entry.bodies is Bodies.POINTS and any(body.size > 1 for body in bodies):
+        raise data["kind"].refused("a tiling of these bodies, which are not all points")
+    return entry
+
+
+# Vertices
+
+
+def _vertices_from_json(data: Stored, entry: Entry, bodies: Sequence[Body], end: QQ) -> Vertices:
+    """Return the moving vertices of a saved tiling."""
+    saved = data["bodies"].entries(len(bodies))
+    are_points = entry.bodies is Bodies.POINTS
+    rings = [
+        _ring_from_json(item["ring"], body, are_points=are_points)
+        for item, body in zip(saved, bodies, strict=True)
+    ]
+    free = data["free"].integers(0)
+    ids = sorted([*(v for ring in rings for v, _ in ring), *free])
+    if ids != list(range(len(ids))):
+        raise InputError("a vertex is there twice, or not at all")
     vertices = Vertices(
         bodies,
-        _rings_from_json(data, bodies),
-        [parse_rational(body["since"]) for body in data["bodies"]],
+        rings,
+        [item["since"].rational() for item in saved],
         _normalization_from_json(data["frame"]),
-        parse_rational(data["end"]),
-        data["free"],
+        end,
+        list(map(VertexId, free)),
     )
-    vertices.enclosures.errors[:] = data["frame"]["errors"]
-    for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
-        moving.is_tiled = body["tiled"]
-    certifier = Certifier(vertices, QQ(0), parse_rational(data["end"]), exact_only=exact_only)
-    now = _time_from_json(data["now"])
-    roots = [EventTime(now.low, now.high, a, b, c) for a, b, c in data["roots_now"]]
-    certifier.move_to(now, roots)
-    certifier.made, certifier.skipped, certifier.zeros = data["counts"]
+    # The bounds only grow, with the bodies that have come and gone: smaller ones are forged.
+    known = vertices.enclosures.errors
+    errors = [e.double(least=0.0, most=LARGEST) for e in data["frame"]["errors"].entries()]
+    known[:] = [max(pair) for pair in zip_longest(known, errors, fillvalue=0.0)]
+    for moving, item in zip(vertices.bodies, saved, strict=True):
+        moving.is_tiled = item["tiled"].flag()
+    return vertices
+
+
+def _ring_from_json(data: Stored, body: Body, *, are_points: bool) -> list[tuple[VertexId, int]]:
+    """Return the ring of a body: ids, each with its vertex in the scene.
+
+    Raises:
+        InputError: if its vertices are not those of the body, in the order of its rings.
+    """
+    pairs = [item.integers(0, length=2) for item in data.entries()]
+    indices = [index for _, index in pairs]
+    if are_points:
+        fits = indices == [0]
+    elif body.has_interior:
+        fits = len(indices) == body.size and all(
+            indices[ring.start : ring.stop] in (list(ring), list(ring)[::-1]) for ring in body.rings
+        )
+    else:
+        fits = indices == ring_of_copies(body.size)
+    if not fits:
+        raise data.refused(f"the vertices of body {shorten(body.name)} in order")
+    return [(VertexId(v), index) for v, index in pairs]
+
+
+def _check_pieces(data: Stored, vertices: Vertices, now: EventTime) -> None:
+    """Check that each body is in the piece of its motion that it has now.
+
+    Raises:
+        InputError: if one has entered it later, or its end is over.
+    """
+    normalization = vertices.normalization
+    for item, moving in zip(data.entries(), vertices.bodies, strict=True):
+        entered = normalization.time(moving.since)[0] <= now.high
+        left = moving.until is not None and normalization.time(moving.until)[1] < now.low
+        if not entered or left:
+            raise item["since"].refused("the start of the piece of motion now")
+
+
+def _frame_to_json(vertices: Vertices) -> Data:
+    """Return the numbers that determine the normalisation, and the bounds on errors in it."""
+    reach = vertices.normalization.reach
+    if reach is None:
+        raise InputError("the normalisation of this tiling was not chosen for a scene")
+    numbers = {name: list(map(str, pair)) for name, pair in reach._asdict().items()}
+    return {**numbers, "errors": list(vertices.enclosures.errors)}
+
+
+def _normalization_from_json(data: Stored) -> Normalization:
+    """Return the normalisation for the saved numbers.
+
+    Raises:
+        InputError: if there are no such numbers; the two of a pair must not decrease.
+    """
+    data.with_keys("x", "y", "span", "errors")
+    pairs: dict[str, tuple[QQ, QQ]] = {}
+    for name in Reach._fields:
+        first, second = (entry.rational() for entry in data[name].entries(2))
+        if first > second:
+            raise data[name].refused("two numbers that do not decrease")
+        pairs[name] = first, second
+    return normalization_of(Reach(**pairs))
+
+
+# Counts
+
+
+def _stats_from_json(data: Stored) -> Stats:
     stats = Stats()
-    stats.events = dict(data["stats"]["events"])
+    stats.events = counts_from_json(data["events"])
     for name in _STATS:
-        setattr(stats, name, data["stats"][name])
-    entry = catalogue.find(data["kind"], convex=data["convex"])
-    kinetic = make(entry, vertices, certifier, stats)
-    kinetic.resume(data)
-    most = _SLOTS * (len(vertices.all) + 1)
-    for slot, time in data["queue"]:
-        if not 0 <= slot < most:
-            raise InputError(f"not a certificate: {shorten(slot)}")
-        kinetic.queue.schedule(slot, _time_from_json(time))
-    return kinetic
+        setattr(stats, name, data[name].integer(0))
+    return stats
+
+
+def counts_from_json(data: Stored) -> dict[str, int]:
+    """Return counts by the names of what is counted."""
+    return {name: count.integer(0) for name, count in data.members()}
 
 
 # Numbers and times
@@ -139,22 +241,23 @@ def number_to_json(number: AlgebraicNumber) -> Data:
     }
 
 
-def number_from_json(data: Data) -> AlgebraicNumber:
+def number_from_json(data: Stored) -> AlgebraicNumber:
     """Return the number that `number_to_json` has written.
 
     Raises:
         InputError: if the polynomial has not just one root in the interval: refinements of it
             would not end.
     """
-    low, high = parse_rational(data["low"]), parse_rational(data["high"])
-    f = tuple(ZZ(c) for c in data["polynomial"])
+    low, high = data["low"].rational(), data["high"].rational()
+    f = tuple(entry.big_integer() for entry in data["polynomial"].entries())
+    is_polynomial = len(f) > 1 and f[-1] != 0
     if low == high:
-        isolated = sign_at(f, low) == 0
+        isolated = is_polynomial and sign_at(f, low) == 0
     else:
-        simple = len(f) > 1 and len(square_free(f)) == len(f)
+        simple = is_polynomial and len(square_free(f)) == len(f)
         isolated = simple and low < high and count_roots(sturm_sequence(f), low, high) == 1
     if not isolated:
-        raise InputError(f"no root of its polynomial: {shorten(data)}")
+        raise data.refused("a polynomial with one root between low and high")
     return AlgebraicNumber.root(f, low, high)
 
 
@@ -167,51 +270,101 @@ def _time_to_json(time: EventTime) -> Data:
     return data
 
 
-def _time_from_json(data: Data) -> EventTime:
+def _time_from_json(data: Stored, vertices: Vertices) -> EventTime:
+    """Return a time of an event.
+
+    Raises:
+        InputError: if the enclosure is none, does not contain the exact time, or there is
+            neither an exact time nor a function of vertices whose root it is.
+    """
+    data.with_keys("low", "high", "of", optional=("exact", "crossing"))
+    low = data["low"].double()
+    high = data["high"].double(least=low)
     exact = number_from_json(data["exact"]) if "exact" in data else None
-    low, high = float(data["low"]), float(data["high"])
-    a, b, c = data["of"]
-    return EventTime(low, high, a, b, c, exact, data.get("crossing", True))
+    crossing = "crossing" not in data or data["crossing"].flag()
+    if exact is None:
+        a, b, c = _vertices_of_time(data["of"], len(vertices.all))
+        if not (math.isfinite(low) and math.isfinite(high)):
+            raise data.refused("a finite enclosure, or an exact time")
+    else:
+        a, b, c = data["of"].integers(-1, len(vertices.all) - 1, length=3)
+        normalization = vertices.normalization
+        is_before = normalization.time(exact._high)[1] < low
+        if is_before or normalization.time(exact._low)[0] > high:
+            raise data["exact"].refused("a time between low and high")
+    return EventTime(low, high, a, b, c, exact, crossing)
 
 
-def _normalization_to_json(normalization: Normalization) -> Data:
-    return {
-        "center": [str(c) for c in normalization.center],
-        "scale": list(normalization.scale),
-        "origin": str(normalization.origin),
-        "time_scale": normalization.time_scale,
-    }
+def _roots_from_json(data: Stored, now: EventTime, count: int) -> list[EventTime]:
+    """Return the times of the functions that vanish now."""
+    triples = [item.integers(-1, count - 1, length=3) for item in data.entries()]
+    return [EventTime(now.low, now.high, a, b, c) for a, b, c in triples]
 
 
-def _normalization_from_json(data: Data) -> Normalization:
-    x, y = map(parse_rational, data["center"])
-    sx, sy = data["scale"]
-    return Normalization((x, y), (sx, sy), parse_rational(data["origin"]), data["time_scale"])
+def _vertices_of_time(data: Stored, count: int) -> tuple[int, int, int]:
+    """Return the ids of the vertices of a function; the last one is `X_ORDER` for an x-order."""
+    first, second, third = data.entries(3)
+    a, b = first.integer(0, count - 1), second.integer(0, count - 1)
+    return a, b, third.integer(int(X_ORDER), count - 1)
 
 
 # Events and contacts
 
 
-def event_from_json(data: Mapping[str, Any]) -> Event:
+def event_from_json(data: Stored) -> Event:
     """Return the event that `Event.to_json` has written."""
-    removed, added = (tuple((u, v) for u, v in data[key]) for key in ("removed", "added"))
-    return Event(number_from_json(data["time"]), data["kind"], removed, added)
-
-
-def contact_from_json(data: Mapping[str, Any]) -> Contact:
-    """Return the contact that `Contact.to_json` has written."""
-    pairs = tuple(
-        Pair(
-            pair["kind"],
-            pair["a"]["body"],
-            pair["a"]["vertex"],
-            pair["b"]["body"],
-            pair["b"].get("edge"),
-            pair["b"].get("vertex"),
-            (pair["point"][0], pair["point"][1]),
-            None if pair["normal"] is None else (pair["normal"][0], pair["normal"][1]),
-        )
-        for pair in data["pairs"]
+    removed, added = (
+        tuple(_names_from_json(edge) for edge in data[key].entries())
+        for key in ("removed", "added")
     )
-    overlaps = tuple((a, b) for a, b in data.get("overlaps", ()))
-    return Contact(number_from_json(data["time"]), data["kind"], pairs, overlaps)
+    return Event(number_from_json(data["time"]), data["kind"].text(), removed, added)
+
+
+def contact_from_json(data: Stored, bodies: Sequence[Body]) -> Contact:
+    """Return the contact of bodies that `Contact.to_json` has written."""
+    by_name = {body.name: body for body in bodies}
+    pairs = tuple(_pair_from_json(pair, by_name) for pair in data["pairs"].entries())
+    overlaps: tuple[tuple[str, str], ...] = ()
+    if "overlaps" in data:
+        overlaps = tuple(_names_from_json(pair, by_name) for pair in data["overlaps"].entries())
+    kind = data["kind"].text(_CONTACT_KINDS)
+    return Contact(number_from_json(data["time"]), kind, pairs, overlaps)
+
+
+def _pair_from_json(data: Stored, bodies: Mapping[str, Body]) -> Pair:
+    """Return the incidence that `Pair.to_json` has written."""
+    a, b = data["a"], data["b"]
+    body, other = _body_from_json(a["body"], bodies), _body_from_json(b["body"], bodies)
+    edge = b["edge"].integer(0, other.size - 1) if "edge" in b else None
+    other_vertex = None if edge is not None else b["vertex"].integer(0, other.size - 1)
+    normal = data["normal"]
+    return Pair(
+        data["kind"].text(_CONTACT_KINDS),
+        body.name,
+        a["vertex"].integer(0, body.size - 1),
+        other.name,
+        edge,
+        other_vertex,
+        _doubles_from_json(data["point"]),
+        None if normal.is_null else _doubles_from_json(normal),
+    )
+
+
+def _body_from_json(data: Stored, bodies: Mapping[str, Body]) -> Body:
+    name = data.text()
+    if name not in bodies:
+        raise data.refused("the name of a body")
+    return bodies[name]
+
+
+def _names_from_json(data: Stored, known: Mapping[str, Body] | None = None) -> tuple[str, str]:
+    """Return a pair of names; of known bodies, if those are given."""
+    first, second = data.entries(2)
+    if known is not None:
+        return _body_from_json(first, known).name, _body_from_json(second, known).name
+    return first.text(), second.text()
+
+
+def _doubles_from_json(data: Stored) -> tuple[float, float]:
+    x, y = (entry.double(least=-LARGEST, most=LARGEST) for entry in data.entries(2))
+    return x, y

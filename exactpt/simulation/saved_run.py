@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.counters import Counts
-from exactpt.kernel.numbers import parse_rational
+from exactpt.kernel.stored import Stored
 from exactpt.scene.scene import Scene
 from exactpt.simulation.mutable_scene import Choice, MutableScene
 from exactpt.simulation.reported_contact import ReportedContact
@@ -12,13 +14,20 @@ from exactpt.simulation.running import Run
 from exactpt.simulation.saved import (
     Data,
     contact_from_json,
+    counts_from_json,
     event_from_json,
     number_from_json,
     number_to_json,
     tiling_from_json,
     tiling_to_json,
 )
+from exactpt.tiling.catalogue import known
 from exactpt.tiling.report import counts_of
+
+KEYS: Final = (
+    "name", "tiling", "exact_only", "begun", "scene",
+    "contact", "met", "pending", "counts", "state",
+)  # fmt: skip
 
 
 def run_to_json(run: Run, scene: object) -> Data:
@@ -34,7 +43,7 @@ def run_to_json(run: Run, scene: object) -> Data:
         "name": mutable.name,
         "tiling": mutable.choice.requested,
         "exact_only": mutable.choice.exact_only,
-        "margin": str(run.margin),
+        "begun": str(run.begun),
         "scene": scene,
         "contact": None if run.contact is None else run.contact.to_json(),
         "met": _reported_to_json(run.reported, mutable),
@@ -50,22 +59,33 @@ def run_to_json(run: Run, scene: object) -> Data:
     }
 
 
-def run_from_json(data: Data, scene: Scene, budget: Budget) -> Run:
-    """Return the run of a scene with a saved state."""
-    counts, exact_only = data["counts"], data["exact_only"]
-    choice = Choice(data["tiling"], data["name"], exact_only)
-    kinetic = data["state"] and tiling_from_json(
-        data["state"], scene.bodies, scene._end, exact_only=exact_only
-    )
-    if kinetic is not None:
-        before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
+def run_from_json(data: Stored, scene: Scene, budget: Budget) -> Run:
+    """Return the run of a scene with a saved state.
+
+    Raises:
+        InputError: if a value is not what `run_to_json` writes, or contradicts the scene.
+    """
+    data.with_keys(*KEYS)
+    counts, state, contact, met = data["counts"], data["state"], data["contact"], data["met"]
+    exact_only = data["exact_only"].flag()
+    choice = Choice(data["tiling"].text(known()), data["name"].text(known()), exact_only)
+    kinetic = None
+    if not state.is_null:
+        kinetic = tiling_from_json(state, scene.bodies, scene._end, exact_only=exact_only)
+        reasons = counts_from_json(counts["reasons"])
+        before = Counts(counts["exact"].integer(0), counts["filtered"].integer(0), reasons)
         kinetic.vertices.counters.set(before)
-    run = Run(MutableScene(scene, kinetic, choice, counts["changes"]), budget)
-    run.margin = parse_rational(data["margin"])
-    run.pending.extend(map(event_from_json, data["pending"]))
-    run.contact = data["contact"] and contact_from_json(data["contact"])
-    run.contacts = counts["contacts"]
-    run.reported = data["met"] and _reported_from_json(data["met"], run.mutable)
+    elif contact.is_null:
+        raise state.refused("a tiling, since bodies do not touch at the start")
+    begun = data["begun"].rational()
+    if begun > scene._start:
+        raise data["begun"].refused("a time up to the start of the scene")
+    mutable = MutableScene(scene, kinetic, choice, counts["changes"].integer(0))
+    run = Run(mutable, budget, begun=begun)
+    run.pending.extend(map(event_from_json, data["pending"].entries()))
+    run.contact = None if contact.is_null else contact_from_json(contact, scene.bodies)
+    run.contacts = counts["contacts"].integer(0)
+    run.reported = None if met.is_null else _reported_from_json(met, run.mutable)
     return run
 
 
@@ -76,6 +96,7 @@ def _reported_to_json(reported: ReportedContact | None, mutable: MutableScene) -
     return {"time": number_to_json(reported.time), "bodies": sorted(reported.bodies)}
 
 
-def _reported_from_json(data: Data, mutable: MutableScene) -> ReportedContact:
-    bodies = {name: mutable.body(name) for name in data["bodies"]}
+def _reported_from_json(data: Stored, mutable: MutableScene) -> ReportedContact:
+    names = [entry.text() for entry in data["bodies"].entries()]
+    bodies = {name: mutable.body(name) for name in names}
     return ReportedContact(number_from_json(data["time"]), bodies)

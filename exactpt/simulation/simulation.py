@@ -29,6 +29,7 @@ from exactpt.tiling.catalogue import AUTO
 from exactpt.tiling.report import report, rules_of
 
 if TYPE_CHECKING:
+    from exactpt.kernel.stored import Stored
     from exactpt.pairs.contact import Contact
     from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query import answers
@@ -457,9 +458,9 @@ class Simulation:
         """
         from exactpt.simulation.store import reading, scene_from_json
 
-        with reading(Path(path), max_bytes) as data:
-            scene = scene_from_json(data["scene"])
-            return _resumed(data, scene, max_events, max_seconds, max_memory)
+        budget = Budget(max_events, max_seconds, max_memory)
+        with budget.held(), reading(Path(path), max_bytes) as data:
+            return _with_state(data, scene_from_json(data["scene"]), budget)
 
     def copy(self) -> Simulation:
         """Return an independent copy of the simulation, in memory.
@@ -491,12 +492,19 @@ def _resumed(
     max_seconds: float | None,
     max_memory: int | None = None,
 ) -> Simulation:
+    """Return the simulation that was copied or pickled."""
+    from exactpt.kernel.stored import Stored
+
+    budget = Budget(max_events, max_seconds, max_memory)
+    with budget.held():
+        return _with_state(Stored(data, "state of a simulation"), scene, budget)
+
+
+def _with_state(data: Stored, scene: Scene, budget: Budget) -> Simulation:
     """Return the simulation of a scene, with the state that `Simulation.to_json` has written."""
     from exactpt.simulation.saved_run import run_from_json
 
     self = Simulation.__new__(Simulation)
-    budget = Budget(max_events, max_seconds, max_memory)
-    with budget.held():
-        self._run = run_from_json(data, scene, budget)
+    self._run = run_from_json(data, scene, budget)
     self._spaces = SpaceCache()
     return self

@@ -7,15 +7,17 @@ import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
-from exactpt.errors import BudgetExceeded, InputError, RoundingError
+from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError
 from exactpt.files import read_text
 from exactpt.kernel.numbers import shorten
+from exactpt.kernel.stored import Stored
 from exactpt.scene.format import loads
+from exactpt.scene.json_values import unique_keys
 from exactpt.scene.scene import Scene
 
-VERSION: Final = 5
+VERSION: Final = 6
 """Version of the file format; files of other versions are refused."""
 WIDTH: Final = 100
 """Maximum number of characters of a value on one line."""
@@ -51,13 +53,13 @@ def _text(value: object, indent: str) -> str:
     return f"{opening}\n{inner}" + f",\n{inner}".join(rows) + f"\n{indent}{closing}"
 
 
-def scene_from_json(data: Mapping[str, Any]) -> Scene:
+def scene_from_json(data: Stored) -> Scene:
     """Return the scene in the data of a file."""
-    return loads(json.dumps(data))
+    return loads(json.dumps(data.data))
 
 
 @contextmanager
-def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]]:
+def reading(path: Path, max_bytes: int | None = None) -> Iterator[Stored]:
     """Yield the data of a file; errors of its use inside the context are input errors.
 
     Raises:
@@ -66,7 +68,7 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]
     """
     text = read_text(path, max_bytes)
     try:
-        data = json.loads(text)
+        data = json.loads(text, object_pairs_hook=unique_keys)
     except (ValueError, RecursionError) as error:
         reason = "nested too deeply" if isinstance(error, RecursionError) else error
         raise InputError(f"{path}: cannot be read: {reason}") from None
@@ -77,8 +79,10 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]
     if data.pop("sha256", None) != _checksum(data):
         raise InputError(f"{path}: checksum mismatch: the file was modified or is corrupt")
     try:
-        yield data
+        yield Stored(data, "state")
     except (BudgetExceeded, MemoryError, RoundingError):
         raise
-    except Exception as error:  # whatever a forged state breaks
-        raise InputError(f"{path}: not a saved simulation: {shorten(error)}") from None
+    except InputError as error:
+        raise InputError(f"{path}: not a saved simulation: {error}") from None
+    except AuditError as error:  # values that are valid one by one
+        raise InputError(f"{path}: not a saved simulation: {shorten(str(error))[1:-1]}") from None

@@ -20,6 +20,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, Ends, HalfEdge
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.stored import Stored
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.audit import audit_angles
@@ -92,14 +93,42 @@ class Engine(Tiling):
         flat = sorted(self.table.flat)
         return {"flat": flat, "mesh": self.mesh.state(), **self.rules.state()}
 
-    def resume(self, state: State) -> None:
+    def resume(self, state: Stored) -> None:
         """See `Tiling.resume`."""
         mesh = self.rules.empty_mesh(self.vertices)
-        mesh.resume(state["mesh"])
+        mesh.resume(state["mesh"], len(self.vertices.all))
         mesh.audit()
+        self._audit_rings(mesh)
         self.certified.mesh = mesh
-        self.table.flat.update(state["flat"])
+        for item in state["flat"].entries():
+            h = HalfEdge(item.integer(0))
+            if not mesh.map.is_used(h):
+                raise item.refused("a half-edge in use")
+            self.table.flat.add(h)
         self.rules.resume(state)
+
+    def _audit_rings(self, mesh: Mesh) -> None:
+        """Check that the edges of bodies in a mesh that was read are those of the vertices.
+
+        Raises:
+            AuditError: if an edge is missing, or leads elsewhere.
+        """
+        vertices = self.vertices
+        for v in vertices.ids():
+            h = mesh.ring_edge[v]
+            if not (mesh.map.is_used(h) and mesh.boundary[h >> 1]):
+                raise AuditError(f"vertex {v} has no edge to the next one on its ring")
+            if mesh.ends(h) != (v, vertices.ahead(v)):
+                raise AuditError(f"the edge of vertex {v} on its ring leads elsewhere")
+
+    def has_part(self, certificate: CertificateId) -> bool:
+        """See `Tiling.has_part`."""
+        kind, part = kind_of(certificate), part_of(certificate)
+        if kind == ANGLE:
+            return self.mesh.map.is_used(HalfEdge(part))
+        if kind in (MOTION, SHRINK):
+            return part < len(self.vertices.bodies)
+        return self.rules.has_part(kind, part)
 
     # The tiling
 

@@ -24,6 +24,7 @@ from exactpt.tiling.angles import CertifiedMesh, Followers
 if TYPE_CHECKING:
     from exactpt.certificates.at_time import PredicatesAt
     from exactpt.kernel.numbers import QQ
+    from exactpt.kernel.stored import Stored
     from exactpt.motion.body import Body
     from exactpt.motion.vertices import Vertices
     from exactpt.pseudotriangulation.conflict_zone import ConflictZone
@@ -94,8 +95,15 @@ class Rules(Followers, ABC):
         """Return a mesh of this tiling without edges."""
         return Mesh(0)
 
-    def resume(self, state: State) -> None:
+    def resume(self, state: Stored) -> None:
         """Restore the data besides the mesh, from a saved state and from the mesh."""
+
+    def has_part(self, kind: int, part: int) -> bool:  # noqa: ARG002 - there are no others
+        """Return True if a part may have a certificate of a kind, besides those of the engine.
+
+        Rules with certificates of their own define it, so that runs can be restored.
+        """
+        return False
 
     # Certificates
 

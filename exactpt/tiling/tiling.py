@@ -16,6 +16,7 @@ from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.stored import Stored
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.clock import Clock
@@ -30,7 +31,7 @@ FEW: Final = 16
 """Number of event times from one look at the budget to the next."""
 
 State: TypeAlias = "dict[str, Any]"
-"""A JSON object, not validated here."""
+"""A JSON object that is written; one that is read is `Stored`."""
 
 
 class Tiling(ABC):
@@ -67,8 +68,17 @@ class Tiling(ABC):
         """Return the tiling between two events, exactly, as a JSON object."""
 
     @abstractmethod
-    def resume(self, state: State) -> None:
-        """Restore a saved tiling; the caller schedules its certificates."""
+    def resume(self, state: Stored) -> None:
+        """Restore a saved tiling; the caller schedules its certificates.
+
+        Raises:
+            AuditError: if values contradict each other.
+            InputError: if a value is not what `state` returns.
+        """
+
+    @abstractmethod
+    def has_part(self, certificate: CertificateId) -> bool:
+        """Return True if the part that a certificate is about exists."""
 
     @abstractmethod
     def mesh_after(self) -> Mesh:

@@ -15,20 +15,20 @@ from librt.vecs import vec
 from mypy_extensions import i64, mypyc_attr
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certificate import part_of
+from exactpt.certificates.certificate import SHADOW, part_of
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.stored import Stored
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import flip, flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
-from exactpt.tiling.greedy.shadows import CertifiedShadows
+from exactpt.tiling.greedy.shadows import COUNT, CertifiedShadows
 from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
-from exactpt.tiling.tiling import State
 
 
 @mypyc_attr(allow_interpreted_subclasses=True)
@@ -69,7 +69,7 @@ class FlippingRules(Rules):
                     if visits is not None:
                         flip(mesh, h, visits, after)
 
-    def resume(self, state: State) -> None:  # noqa: ARG002 - shadows follow from the mesh
+    def resume(self, state: Stored) -> None:  # noqa: ARG002 - shadows follow from the mesh
         """See `Rules.resume`."""
         mesh, after = self.certified.mesh, self.certified.after()
         for h in mesh.flippable():
@@ -77,6 +77,12 @@ class FlippingRules(Rules):
             visits = shadow(mesh, h, after)
             if visits is not None:  # it is None only at a contact, which ends the run
                 self._shadows.resume(h, visits)
+
+    def has_part(self, kind: int, part: int) -> bool:
+        """See `Rules.has_part`."""
+        h, mesh = HalfEdge(part), self.certified.mesh
+        is_diagonal = h % 2 == 0 and mesh.map.is_used(h) and mesh.is_flippable(h)
+        return SHADOW <= kind < SHADOW + COUNT and is_diagonal
 
     def certify(self) -> None:
         """See `Rules.certify`."""

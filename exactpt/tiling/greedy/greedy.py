@@ -10,12 +10,13 @@ from __future__ import annotations
 from typing import ClassVar, final
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certificate import CELL, kind_of, part_of
+from exactpt.certificates.certificate import CELL, EXTREME, kind_of, part_of
 from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, shorten
+from exactpt.kernel.stored import Stored
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key, twin
@@ -94,9 +95,16 @@ class VerticalRules(Rules):
         """See `Rules.state`."""
         return {"cells": self.cells.now.state()}
 
-    def resume(self, state: State) -> None:
+    def resume(self, state: Stored) -> None:
         """See `Rules.resume`."""
-        self.cells.now.resume(state["cells"])
+        vertices = self.certified.vertices
+        self.cells.now.resume(state["cells"], len(vertices.bodies), len(vertices.all))
+
+    def has_part(self, kind: int, part: int) -> bool:
+        """See `Rules.has_part`."""
+        if kind == CELL:
+            return part < len(self.cells.now.left)
+        return kind == EXTREME and part < 4 * len(self.certified.vertices.bodies)
 
     def certify(self) -> None:
         """See `Rules.certify`."""

@@ -44,6 +44,12 @@ class ShadowRules(FlippingRules):
         flip_until_greedy(mesh, instant, mesh.flippable())
         return mesh
 
+    def has_part(self, kind: int, part: int) -> bool:
+        """See `Rules.has_part`."""
+        if kind == TURN:
+            return part < len(self.certified.vertices.all)
+        return super().has_part(kind, part)
+
     def certify(self) -> None:
         """See `Rules.certify`."""
         self._turned.clear()

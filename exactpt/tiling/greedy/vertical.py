@@ -26,6 +26,7 @@ from mypy_extensions import i64
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.indices import NO_VERTEX, VertexId, vertex_vec
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.stored import Stored
 from exactpt.tiling.greedy.convex_ring import Chain, chains_of, is_above
 
 NO_ARC: Final = -1
@@ -75,12 +76,30 @@ class VerticalDecomposition:
             "right_down": list(self.right_down),
         }
 
-    def resume(self, state: dict[str, list[int]]) -> None:
-        """Restore these cells and arcs."""
-        self.vertex = vertex_vec(map(VertexId, state["vertex"]))
-        self.left, self.right = vec[i64](state["left"]), vec[i64](state["right"])
-        self.left_up, self.left_down = vec[i64](state["left_up"]), vec[i64](state["left_down"])
-        self.right_up, self.right_down = vec[i64](state["right_up"]), vec[i64](state["right_down"])
+    def resume(self, state: Stored, bodies: int, vertices: int) -> None:
+        """Restore these cells and arcs.
+
+        Args:
+            state: what `state` returned.
+            bodies: the number of bodies, each of which has two arcs.
+            vertices: the number of vertex ids.
+
+        Raises:
+            InputError: if the lists do not belong together, or an entry is out of range.
+        """
+        arcs = 2 * bodies
+        self.vertex = vertex_vec(
+            map(VertexId, state["vertex"].integers(0, vertices - 1, length=arcs))
+        )
+        self.left = vec[i64](state["left"].integers(NO_ARC, arcs - 1))
+        cells = len(self.left)
+        self.right = vec[i64](state["right"].integers(NO_ARC, arcs - 1, length=cells))
+
+        def cells_beside(name: str) -> vec[i64]:
+            return vec[i64](state[name].integers(0, cells - 1, length=arcs))
+
+        self.left_up, self.left_down = cells_beside("left_up"), cells_beside("left_down")
+        self.right_up, self.right_down = cells_beside("right_up"), cells_beside("right_down")
 
     def add_cell(self, left: int) -> int:
         """Add a cell with an arc at its left end, and none yet at its right end; returns it."""

@@ -7,7 +7,7 @@ their failures are those of `exactpt.tiling.incremental.tree_repairs`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import final
+from typing import cast, final, get_args
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import (
@@ -22,6 +22,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, VertexId
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.stored import Stored
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -108,10 +109,17 @@ class IncrementalTiling(Tiling):
         structure, chains = self.structure, self.chains
         return {"structure": structure.state(), "chains": [chains.kind, chains.allowed]}
 
-    def resume(self, state: State) -> None:
+    def resume(self, state: Stored) -> None:
         """See `Tiling.resume`."""
-        self.chains.kind, self.chains.allowed = state["chains"]
-        self._replace(IncrementalStructure.resumed(state["structure"]))
+        kind, allowed = state["chains"].entries(2)
+        self.chains.kind = cast("ChainKind", kind.text(get_args(ChainKind)))
+        self.chains.allowed = allowed.integer(0)
+        count = len(self.vertices.all)
+        self._replace(IncrementalStructure.resumed(state["structure"], count))
+
+    def has_part(self, certificate: CertificateId) -> bool:
+        """See `Tiling.has_part`."""
+        return point_of(certificate) < len(self.vertices.all)
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:

@@ -45,6 +45,7 @@ from typing import Any, Final, NamedTuple, final
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import VertexId
+from exactpt.kernel.stored import Stored
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
@@ -125,21 +126,33 @@ class IncrementalStructure:
         }
 
     @classmethod
-    def resumed(cls, state: dict[str, Any]) -> IncrementalStructure:
+    def resumed(cls, state: Stored, count: int) -> IncrementalStructure:
         """Return the structure of a saved state.
+
+        Args:
+            state: what `state` returned.
+            count: the number of points.
 
         Raises:
             AuditError: if it is none: walks along its trees might not end.
+            InputError: if a value is not an index or a count.
         """
-        order, (upper, lower) = state["order"], state["parents"]
-        if sorted(order) != list(range(len(order))):
+        order = state["order"].integers(0, count - 1, length=count)
+        if len(set(order)) < count:
             raise AuditError("the x-order does not have every point once")
-        structure = cls.of(order, (upper, lower))
+        upper, lower = (
+            parents.integers(int(NONE), count - 1, length=count)
+            for parents in state["parents"].entries(2)
+        )
+        rank = {p: i for i, p in enumerate(order)}
         for parent in (upper, lower):
             for p in order[1:]:
-                if parent[p] < 0 or structure.rank[parent[p]] >= structure.rank[p]:
+                if parent[p] < 0 or rank[parent[p]] >= rank[p]:
                     raise AuditError(f"point {p} hangs on none to its left")
-        for tree, steps in zip(structure.trees, state["steps"], strict=True):
+        points = list(map(VertexId, order))
+        parents = list(map(VertexId, upper)), list(map(VertexId, lower))
+        structure = cls.of(points, parents)
+        for tree, steps in zip(structure.trees, state["steps"].integers(0, length=2), strict=True):
             tree.steps = steps
         return structure
 

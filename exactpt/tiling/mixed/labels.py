@@ -29,6 +29,7 @@ from typing import Any, final
 
 from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
+from exactpt.kernel.stored import Stored
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
 from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label, RingTree
@@ -187,10 +188,12 @@ class LabelledMesh(Mesh):
         """As `Mesh.state`; with the labels."""
         return {**super().state(), "labels": [sorted(label) for label in self.labels]}
 
-    def resume(self, state: dict[str, list[Any]]) -> None:
+    def resume(self, state: Stored, vertices: int) -> None:
         """As `Mesh.resume`; with the labels."""
-        super().resume(state)
-        self.labels = [frozenset(label) for label in state["labels"]]
+        super().resume(state, vertices)
+        last = len(self.forest.parent) - 1
+        labels = state["labels"].entries(len(self.region))
+        self.labels = [frozenset(label.integers(0, last)) for label in labels]
 
     def labelling(self) -> list[Label]:
         """Return the labels."""

@@ -1,13 +1,23 @@
 """Saved and restored at any moment, a run goes on as if nothing had happened."""
 
 import json
+import time
 from contextlib import suppress
 from pathlib import Path
 from random import Random
 
 import pytest
 
-from exactpt import Body, Bounce, BudgetExceeded, InputError, Scene, Simulation, Translation
+from exactpt import (
+    Body,
+    Bounce,
+    BudgetExceeded,
+    ExactPTError,
+    InputError,
+    Scene,
+    Simulation,
+    Translation,
+)
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.simulation.store import sealed
 
@@ -138,8 +148,8 @@ def test_a_contact_at_the_start_is_saved(tmp_path):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 5}',
-     '{"exactpt-simulation": 5, "tiling": "auto", "exact_only": false, "scene": {}}',
+    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 6}',
+     '{"exactpt-simulation": 6, "tiling": "auto", "exact_only": false, "scene": {}}',
      "[" * 100_000, '{"a":' * 100_000, '{"exactpt-simulation": ' + "[" * 900 + "]" * 900 + "}",
      '{"exactpt-simulation": ' + "7" * 10_000 + "}"],
     ids=lambda text: text[:60],
@@ -155,9 +165,9 @@ def test_other_files_are_refused(text, tmp_path):
 
 def test_the_previous_version_is_refused_by_its_number(tmp_path):
     data = Simulation(generate("stars", 2)).to_json()
-    (tmp_path / "run.json").write_text(json.dumps(data | {"exactpt-simulation": 4}))
+    (tmp_path / "run.json").write_text(json.dumps(data | {"exactpt-simulation": 5}))
 
-    with pytest.raises(InputError, match="this version reads simulations 5, not 4"):
+    with pytest.raises(InputError, match="this version reads simulations 6, not 5"):
         Simulation.restore(tmp_path / "run.json")
 
 
@@ -191,7 +201,7 @@ def test_a_changed_file_is_refused(tmp_path):
     assert Simulation.restore(path).to_json() == data
     for place in [*found[:20], *Random(1).sample(found, 100)]:
         path.write_text(json.dumps(changed(data, place, "altered")))
-        with pytest.raises(InputError, match=r"checksum mismatch|reads simulations 5"):
+        with pytest.raises(InputError, match=r"checksum mismatch|reads simulations 6"):
             Simulation.restore(path)
 
 
@@ -221,6 +231,95 @@ def test_a_forged_file_is_refused_or_keeps_its_budget(tmp_path, value):
             Simulation.restore(path, max_seconds=5)
 
 
+NUMBERS = [-1, 2**31, 2**70, -(10**400), 1e308, float("nan"), True, None, "x", "1e99999",
+           "9" * 4000, {}, [[[0]]]]  # fmt: skip
+
+
+@pytest.mark.long("5")
+@pytest.mark.parametrize(
+    "family, seed, tiling",
+    [("convex", 2, "greedy"), ("stars", 2, "greedy"), ("stars", 2, "mixed"), ("stars", 3, "lazy"),
+     ("linear_points", 4, "incremental")],
+)  # fmt: skip
+def test_forged_values_are_refused_by_key_or_keep_the_budget(tmp_path, family, seed, tiling):
+    """Of values at 120 places that are junk, with a valid checksum; a run may break an invariant.
+
+    Nothing but an `ExactPTError` leaves the restored run, and no value takes more than its budget.
+    """
+    simulation = Simulation(generate(family, seed), tiling=tiling)
+    for _ in range(3):
+        simulation.step()
+    whole, path, rng = without_seal(simulation.to_json()), tmp_path / "run.json", Random(seed)
+    state = [place for place in places(whole) if place[0] != "scene"]
+    refused = []
+    for place in rng.sample(state, 120):
+        path.write_text(json.dumps(sealed(changed(whole, place, rng.choice(NUMBERS)))))
+        began = time.process_time()
+        try:
+            for _ in Simulation.restore(path, max_seconds=2, max_events=50).run():
+                pass
+        except InputError as error:
+            refused.append(str(error))
+        except ExactPTError:  # a wrong enclosure, for example, is noticed when it is needed
+            pass
+        assert time.process_time() - began < 5
+    assert len(refused) > 60
+    assert all(line.startswith(f"{path}: ") and len(line) < 500 for line in refused)
+
+
+@pytest.mark.parametrize(
+    "key, value, message",
+    [
+        ("x", ["1e99999", "2"], r'"x"\[0\]: expected a rational as text, "p" or "p/q", got \'1e9'),
+        ("x", ["2", "1"], '"x": expected two numbers that do not decrease'),
+        ("y", ["1"], '"y": expected a list of 2 entries'),
+        ("span", [0, 1], r'"span"\[0\]: expected a rational as text'),
+        ("scale", [10**6, 10**6], "unknown key 'scale'"),
+        ("time_scale", 10**18, "unknown key 'time_scale'"),
+        ("errors", [-1.0], r'"errors"\[0\]: expected a double from 0'),
+    ],
+)
+def test_numbers_of_the_normalisation_are_checked(tmp_path, key, value, message):
+    """Exponents of a forged file aborted the process: gmp has no larger numbers."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    data["state"]["frame"][key] = value
+    assert_refused(tmp_path, data, message)
+
+
+@pytest.mark.parametrize("digits", [1000, 4000])
+def test_exponents_of_the_normalisation_are_bounded_by_the_digits_read(tmp_path, digits):
+    """10^n needs n digits in the file, and its exponent is at most 10 n / 3: it fits in memory."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    data["state"]["frame"]["x"] = ["0", "1" + "0" * digits]
+    (tmp_path / "run.json").write_text(json.dumps(sealed(data)))
+
+    simulation = Simulation.restore(tmp_path / "run.json", max_seconds=5)
+
+    assert simulation.kinetic.vertices.normalization.scale[0] < 10 * digits / 3 + 2
+
+
+def test_key_that_is_there_twice_is_refused(tmp_path):
+    """The second value would be taken, and the checksum is about that."""
+    path = tmp_path / "run.json"
+    Simulation(generate("convex", 2)).save(path)
+    path.write_text(path.read_text().replace('"contact": null', '"contact": 1, "contact": null'))
+
+    with pytest.raises(InputError, match="the key 'contact' is there twice"):
+        Simulation.restore(path)
+
+
+@pytest.mark.parametrize("moment", [0, 3])
+def test_run_that_was_changed_keeps_its_margin_when_restored(tmp_path, moment):
+    """Its scene begins at the change, the margin before contacts is that of the whole span."""
+    simulation = Simulation(bouncing(1))
+    events = simulation.run(on_contact=Bounce(("west", "east")))
+    for _ in range(moment):
+        next(events)
+    simulation.save(tmp_path / "run.json")
+
+    assert Simulation.restore(tmp_path / "run.json")._run.margin == simulation._run.margin
+
+
 def test_a_far_end_is_refused(tmp_path):
     """The run went on to the end of the tiling, and asked for no deadline on the way."""
     simulation = Simulation(generate("convex", 2), tiling="greedy")
@@ -237,14 +336,18 @@ def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
     """The queue would have room for all certificates up to it."""
     data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
     assert_refused(
-        tmp_path, changed(data, ("state", "queue", 0, 0), slot), r"run\.json: .*not a certificate"
+        tmp_path,
+        changed(data, ("state", "queue", 0, 0), slot),
+        r'"queue"\[0\]\[0\]: expected (a certificate of this tiling|an integer from 0), got -?\d+',
     )
 
 
 def test_roots_of_more_than_three_vertices_are_refused(tmp_path):
     """The fourth number would be taken for an exact time."""
     data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
-    assert_refused(tmp_path, changed(data, ("state", "roots_now"), [[0, 1, 2, 3]]), r"run\.json: ")
+    assert_refused(
+        tmp_path, changed(data, ("state", "roots_now"), [[0, 1, 2, 3]]), "a list of 3 entries"
+    )
 
 
 @pytest.mark.parametrize(
@@ -265,9 +368,9 @@ def test_bug_points_that_hang_in_a_circle_are_refused(tmp_path, place, value, me
 @pytest.mark.parametrize(
     "place, value, message",
     [
-        ((1, "ring", 0, 0), -1, "a vertex is there twice, or not at all"),
+        ((1, "ring", 0, 0), -1, r'"ring"\[0\]\[0\]: expected an integer from 0, got -1'),
         ((1, "ring", 0, 0), 1, "a vertex is there twice, or not at all"),
-        ((1, "ring", 2, 1), 0, "not the vertices of body 'b1'"),
+        ((1, "ring", 2, 1), 0, "expected the vertices of body 'b1' in order"),
     ],
 )
 def test_bug_rings_without_all_vertices_are_refused(tmp_path, place, value, message):
@@ -294,7 +397,9 @@ def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
     simulation.step()
     data = without_seal(simulation.to_json())
     assert_refused(
-        tmp_path, changed(data, ("state", "now", "exact"), number), "no root of its polynomial"
+        tmp_path,
+        changed(data, ("state", "now", "exact"), number),
+        "expected a polynomial with one root between low and high",
     )
 
 
