@@ -79,8 +79,61 @@ def write_atomically(path: Path, content: str | bytes) -> None:
         write(content)
 
 
+def create(path: Path, content: bytes) -> BinaryIO:
+    """Create a file that begins with some bytes; return it, open for reading and writing.
+
+    It appears with all of these bytes or not at all, whatever ends the process. What has this name
+    already, be it a file, a link or a pipe, is left alone.
+
+    Raises:
+        InputError: if the name is taken, or the file cannot be written.
+    """
+    with _refusing(path):
+        file = _open_beside(path, None)
+        try:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+            _move(file.name, path)
+        except BaseException:
+            file.close()
+            with contextlib.suppress(OSError):
+                os.unlink(file.name)
+            raise
+    return file
+
+
+def open_own(path: Path, *, writable: bool) -> BinaryIO:
+    """Open a regular file that exists, at its beginning; no link is followed.
+
+    Raises:
+        InputError: if it is a link, a folder, a pipe or a device, or cannot be opened.
+    """
+    flags = os.O_RDWR if writable else os.O_RDONLY
+    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"):  # each is missing on some systems
+        flags |= getattr(os, name, 0)
+    if path.is_symlink():
+        raise InputError(f"{path}: a link: move it away, or choose another name")
+    try:
+        descriptor = os.open(path, flags)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be opened: {error.strerror}") from None
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise InputError(f"{path}: not a file: move it away, or choose another name")
+    return open(descriptor, "r+b" if writable else "rb")
+
+
+def is_at(file: BinaryIO, path: Path) -> bool:
+    """Return True if an open file still has this name."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), os.lstat(path))
+    except OSError:
+        return False
+
+
 @contextlib.contextmanager
-def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
+def writing(path: Path, *, new: bool = False) -> Iterator[Callable[[str | bytes], None]]:
     """Give a function that writes to a temporary file, which replaces ``path`` at the end.
 
     The temporary file is in the same folder. After an exception inside the context it is
@@ -90,13 +143,19 @@ def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
 
     Any number of threads may do this at the same time.
 
+    Args:
+        path: the file.
+        new: whether nothing is replaced: the name must not be taken, neither now nor at the end.
+
     Raises:
-        InputError: if the file cannot be written.
+        InputError: if the file cannot be written, or must be new and is there.
     """
     with _refusing(path):
+        if new and os.path.lexists(path):
+            raise FileExistsError
         special = any(path.absolute().is_relative_to(folder) for folder in ("/dev", "/proc"))
         direct = path.exists() and (special or not path.is_file())
-        target = path if direct else path.resolve()
+        target = path if direct or new else path.resolve()
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else None
         file = path.open("wb") if direct else _open_beside(target, mode)
 
@@ -110,7 +169,7 @@ def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
             if direct:
                 file.close()
             else:
-                _put_in_place(file, target, mode)
+                _put_in_place(file, target, mode, new=new)
     except BaseException:
         with contextlib.suppress(OSError):
             file.close()
@@ -124,6 +183,8 @@ def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
 def _refusing(path: Path) -> Iterator[None]:
     try:
         yield
+    except FileExistsError:
+        raise InputError(f"{path}: it exists: remove it, or choose another name") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
@@ -132,16 +193,37 @@ def _open_beside(target: Path, mode: int | None) -> BinaryIO:
     """Return a new file in the same folder, with permissions no wider than the old file's."""
     name = target.with_name(f".exactpt-{secrets.token_hex(8)}")
     allowed = 0o666 if mode is None else mode & 0o666 | stat.S_IWUSR
-    return open(name, "xb", opener=lambda path, flags: os.open(path, flags, allowed))
+    return open(name, "x+b", opener=lambda path, flags: os.open(path, flags, allowed))
 
 
-def _put_in_place(file: BinaryIO, target: Path, mode: int | None) -> None:
+def _put_in_place(file: BinaryIO, target: Path, mode: int | None, *, new: bool) -> None:
     if mode is not None:
         os.chmod(file.name, mode)
     file.flush()
     os.fsync(file.fileno())
     file.close()
-    os.replace(file.name, target)
+    if new:
+        _move(file.name, target)
+    else:
+        os.replace(file.name, target)
+
+
+def _move(name: str, path: Path) -> None:
+    """Give a file another name, which must not be taken.
+
+    Raises:
+        FileExistsError: if it is.
+    """
+    try:
+        os.link(name, path)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without hard links: there is a moment between the two steps
+        if os.path.lexists(path):
+            raise FileExistsError from None
+        os.rename(name, path)
+    else:
+        os.unlink(name)
 
 
 def lock(file: BinaryIO) -> bool:

@@ -5,12 +5,24 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import NamedTuple
+from hashlib import blake2b
+from typing import Final, NamedTuple
 
 from exactpt.batch.answering import Answer, answer, answers_of
 from exactpt.batch.options import Options
+from exactpt.kernel.stored import Stored
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Step, Work
+
+DIGEST: Final = 16
+"""Bytes of a digest."""
+LARGEST_FILE: Final = (1 << 63) - 1
+"""Maximum number of bytes of a file."""
+
+
+def digest_of(text: bytes) -> str:
+    """Return the digest of some bytes."""
+    return blake2b(text, digest_size=DIGEST).hexdigest()
 
 
 class Chunk(NamedTuple):
@@ -58,6 +70,7 @@ class Record(NamedTuple):
     Attributes:
         start, stop, digest, lines, scenes, failures, first: as in `Answered`.
         at, size: the place and the number of bytes of its results.
+        results: the digest of these.
     """
 
     start: int
@@ -69,12 +82,41 @@ class Record(NamedTuple):
     first: str
     at: int
     size: int
+    results: str
+
+    @classmethod
+    def read(cls, data: Stored, length: int) -> Record:
+        """Return the record in a line of a journal.
+
+        Args:
+            data: the line, an object with the attributes as keys.
+            length: the length of the input.
+
+        Raises:
+            InputError: if a value is none that a batch writes.
+        """
+        start = data["start"].integer(0, length)
+        stop = data["stop"].integer(start + 1, length)
+        lines = data["lines"].integer(1, stop - start)
+        scenes = data["scenes"].integer(0, lines)
+        return cls(
+            start,
+            stop,
+            data["digest"].text(),
+            lines,
+            scenes,
+            data["failures"].integer(0, scenes),
+            data["first"].text(),
+            data["at"].integer(0, LARGEST_FILE),
+            data["size"].integer(0, LARGEST_FILE),
+            data["results"].text(),
+        )
 
 
 def record_of(answered: Answered, at: int) -> Record:
     """Return the record of results that are kept at a place."""
     *about, text = answered
-    return Record._make([*about, at, len(text)])
+    return Record._make([*about, at, len(text), digest_of(text)])
 
 
 def answered(chunk: Chunk, _report: Callable[[Step], None], options: Options) -> Answered:

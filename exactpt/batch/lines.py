@@ -11,7 +11,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import BinaryIO, Final, Protocol
 
-from exactpt.batch.chunks import Chunk, Record
+from exactpt.batch.chunks import DIGEST, Chunk, Record
 from exactpt.errors import InputError
 
 LARGEST: Final = 1 << 18
@@ -19,8 +19,6 @@ LARGEST: Final = 1 << 18
 SMALLEST: Final = 1 << 12
 PARTS: Final = 16
 """Least number of chunks for each worker, if they are not smaller than `SMALLEST` then."""
-DIGEST: Final = 16
-"""Bytes of a digest."""
 
 
 class Source(Protocol):
@@ -77,7 +75,7 @@ class Lines:
             while True:
                 known = done.get(start)
                 if known is not None:
-                    if _digest_of_next(file, known.stop - start) != known.digest:
+                    if _read_next(file, known.stop - start) != (known.digest, known.lines):
                         raise changed(self._path)
                     start, line = known.stop, line + known.lines
                     continue
@@ -118,9 +116,12 @@ def changed(path: Path) -> InputError:
     return InputError(f"{path}: it has changed since the batch began")
 
 
-def _digest_of_next(file: BinaryIO, count: int) -> str:
-    digest = blake2b(digest_size=DIGEST)
+def _read_next(file: BinaryIO, count: int) -> tuple[str, int]:
+    """Return the digest and the number of lines of the next bytes."""
+    digest, lines, last = blake2b(digest_size=DIGEST), 0, b"\n"
     while count and (piece := file.read(min(count, 1 << 20))):
         digest.update(piece)
         count -= len(piece)
-    return digest.hexdigest()
+        lines += piece.count(b"\n")
+        last = piece[-1:]
+    return digest.hexdigest(), lines + (last != b"\n")

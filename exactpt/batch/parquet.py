@@ -6,12 +6,11 @@ import io
 import json
 from collections.abc import Callable, Container, Iterator, Mapping
 from contextlib import contextmanager
-from hashlib import blake2b
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
-from exactpt.batch.chunks import Chunk, Record
-from exactpt.batch.lines import DIGEST, changed
+from exactpt.batch.chunks import Chunk, Record, digest_of
+from exactpt.batch.lines import changed
 from exactpt.errors import InputError
 
 if TYPE_CHECKING:
@@ -84,7 +83,7 @@ class Rows:
 
     def _chunk(self, start: int, rows: list[bytes], known: Record | None) -> Iterator[Chunk]:
         text = b"\n".join(rows)
-        digest = blake2b(text, digest_size=DIGEST).hexdigest()
+        digest = digest_of(text)
         if known is None:
             yield Chunk(start + 1, start, start + len(rows), digest, text)
         elif digest != known.digest:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
@@ -74,7 +75,7 @@ def run(
     options = options or Options()
     given, target = Path(scenes), Path(answers)
     source = Rows(given) if given.suffix == PARQUET else Lines(given, options.max_bytes)
-    if target.exists():
+    if os.path.lexists(target):
         raise InputError(f"{target}: it exists: remove it, or choose another name")
     most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
     journal = Journal(target, options, source.length)
@@ -95,7 +96,7 @@ def run(
             if report is not None:
                 report(done, source.length)
         records = _all(journal, source)
-        with writing(target) as write, _as_rows(target, write, source) as add:
+        with writing(target, new=True) as write, _as_rows(target, write, source) as add:
             journal.pass_on(add)
         journal.remove()
     finally:

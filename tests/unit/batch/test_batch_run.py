@@ -13,7 +13,7 @@ from commands import code_of
 from scenes_of_two import generic_lines, nearly_degenerate
 
 from exactpt.batch import Options, answers, run
-from exactpt.batch.chunks import Chunk, answered, one_by_one
+from exactpt.batch.chunks import Chunk, Record, answered, digest_of, one_by_one
 from exactpt.batch.lines import Lines
 from exactpt.errors import InputError
 from exactpt.scene.generate import generate
@@ -78,7 +78,7 @@ def test_an_interrupted_batch_goes_on(scenes, tmp_path, jobs, monkeypatch):
             run(scenes, out, jobs=jobs, report=interrupted_after(chunks))
         assert not out.exists()
     assert left(tmp_path) == ["answers.jsonl.journal", "answers.jsonl.part", "scenes.jsonl"]
-    known = (tmp_path / "answers.jsonl.part").read_text().splitlines()
+    _own, *known = (tmp_path / "answers.jsonl.part").read_text().splitlines()
     again = []
 
     def count(chunk, tell, options):
@@ -98,7 +98,7 @@ def stopped(scenes, out):
     """A batch of which some chunks are answered."""
     with pytest.raises(KeyboardInterrupt):
         run(scenes, out, report=interrupted_after(2))
-    return out.with_name("answers.jsonl.part"), out.with_name("answers.jsonl.journal")
+    return out.with_name(f"{out.name}.part"), out.with_name(f"{out.name}.journal")
 
 
 @pytest.mark.parametrize("cut", [1, 10, 100])
@@ -113,14 +113,15 @@ def test_what_was_half_written_is_written_again(scenes, tmp_path, cut):
     assert out.read_text() == EXPECTED
 
 
-def test_a_journal_of_which_nothing_is_left(scenes, tmp_path):
+def test_journal_without_its_first_line_is_refused(scenes, tmp_path):
+    """The first line appears whole or not at all: such a file is not of the batch."""
     out = tmp_path / "answers.jsonl"
-    _part, journal = stopped(scenes, out)
+    part, journal = stopped(scenes, out)
     journal.write_bytes(journal.read_bytes()[:7])
+    before = part.read_bytes()
 
-    run(scenes, out)
-
-    assert out.read_text() == EXPECTED
+    assert "not the journal of a batch" in refusal(scenes, out)
+    assert (journal.read_bytes(), part.read_bytes()) == (b'{"exact', before)
 
 
 def refusal(scenes, out, options=None):
@@ -154,9 +155,209 @@ def test_files_that_are_no_batch_are_refused(scenes, tmp_path):
     head = journal.read_bytes().split(b"\n")[0]
     for wrong in (b"[1, 2]", b"{}", b"3", b'[0, 1, "x", 1, 1, 0, "", 0, "y"]'):
         journal.write_bytes(head + b"\n" + wrong + b"\n")
-        assert "not the journal of a batch" in refusal(scenes, out)
-    journal.write_bytes(head + b'\n[0, 1, "x", 1, 1, 0, "", 0, 99999999]\n')
-    assert "answers of the journal are missing" in refusal(scenes, out)
+        assert f"{journal}: line 2: " in refusal(scenes, out)
+
+
+def foreign(kind, folder):
+    """Something beside the output that a batch has not written."""
+    path = folder / kind
+    target = folder / "target"
+    target.write_text("precious\n")
+    match kind:
+        case "file":
+            path.write_text("precious\n")
+        case "empty file":
+            path.touch()
+        case "link":
+            path.symlink_to(target)
+        case "dangling link":
+            path.symlink_to(folder / "nothing")
+        case "folder":
+            path.mkdir()
+        case "pipe":
+            os.mkfifo(path)
+    return path, target
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links and pipes of a Unix")
+@pytest.mark.parametrize("ending", ["part", "journal"])
+@pytest.mark.parametrize("kind", ["file", "empty file", "link", "dangling link", "folder", "pipe"])
+def test_neighbour_of_the_output_is_left_alone(scenes, tmp_path, kind, ending):
+    out = tmp_path / "answers.jsonl"
+    path, target = foreign(kind, tmp_path)
+    neighbour = out.with_name(f"answers.jsonl.{ending}")
+    os.rename(path, neighbour)
+    before, files = os.lstat(neighbour), left(tmp_path)
+
+    message = refusal(scenes, out)
+
+    assert message.startswith(f"{neighbour}: ")
+    assert "\n" not in message
+    assert left(tmp_path) == files
+    assert os.lstat(neighbour) == before
+    assert target.read_text() == "precious\n"
+    assert not (tmp_path / "nothing").exists()
+
+
+@pytest.mark.parametrize("ending", ["part", "journal"])
+def test_neighbour_in_a_batch_that_goes_on_is_left_alone(scenes, tmp_path, ending):
+    """The other file is that of the batch."""
+    out = tmp_path / "answers.jsonl"
+    files = dict(zip(("part", "journal"), stopped(scenes, out), strict=True))
+    files[ending].unlink()
+    files[ending].write_text("precious\n")
+    before = {path: path.read_bytes() for path in files.values()}
+
+    assert refusal(scenes, out).startswith(f"{files[ending]}: not ")
+    assert {path: path.read_bytes() for path in files.values()} == before
+
+
+def test_results_of_another_batch_are_refused(scenes, tmp_path):
+    """The same query about the same scenes: the names of the two batches differ."""
+    out, other = tmp_path / "answers.jsonl", tmp_path / "others.jsonl"
+    part, _ = stopped(scenes, out)
+    theirs, _ = stopped(scenes, other)
+    part.write_bytes(theirs.read_bytes())
+
+    assert refusal(scenes, out).startswith(f"{part}: not of this batch")
+
+
+@pytest.mark.parametrize("place", [0, 30, -30, None])
+def test_results_changed_meanwhile_are_refused(scenes, tmp_path, place):
+    out = tmp_path / "answers.jsonl"
+    part, journal = stopped(scenes, out)
+    content = bytearray(part.read_bytes())
+    if place is None:
+        content += b"precious\n"
+    else:
+        first = content.index(b"\n") + 1
+        content[first + place if place >= 0 else place] ^= 1
+    part.write_bytes(content)
+    before = part.read_bytes(), journal.read_bytes()
+
+    message = refusal(scenes, out)
+
+    assert message.startswith(f"{part}: byte ")
+    assert (part.read_bytes(), journal.read_bytes()) == before
+
+
+@pytest.mark.parametrize("rest", [b"", b'{"li', b'{"line": 3, "con', b'{"line": 3}\n{', b"\0" * 99])
+def test_what_a_killed_process_was_writing_is_cut_off(scenes, tmp_path, rest):
+    out = tmp_path / "answers.jsonl"
+    part, _ = stopped(scenes, out)
+    part.write_bytes(part.read_bytes() + rest)
+
+    run(scenes, out)
+
+    assert out.read_text() == EXPECTED
+
+
+DEEP = "[" * 900 + "]" * 900
+
+
+@pytest.mark.parametrize("key", Record._fields)
+@pytest.mark.parametrize("value", ["-1", "1" + "0" * 400, "1.5", "true", "null", '"x"', "{}", DEEP])
+def test_value_of_a_journal_is_refused_with_its_key(scenes, tmp_path, key, value):
+    """The digest of the line is right."""
+    out = tmp_path / "answers.jsonl"
+    part, journal = stopped(scenes, out)
+    head, line, *rest = journal.read_bytes().splitlines(keepends=True)
+    data = {**json.loads(line), key: json.loads(value)}
+    del data["seal"]
+    data["seal"] = digest_of(json.dumps(data).encode() + b"\n")
+    if data == json.loads(line) or (isinstance(data[key], str) and key in {"digest", "first"}):
+        return  # it is what was written, or a text
+    journal.write_bytes(head + json.dumps(data).encode() + b"\n" + b"".join(rest))
+    before = part.read_bytes(), journal.read_bytes()
+
+    message = refusal(scenes, out)
+
+    assert "\n" not in message
+    assert len(message) < 400
+    place = (f"{part}: byte ",) if key == "results" else ()
+    assert message.startswith((f'{journal}: line 2: "{key}": expected ', *place))
+    assert (part.read_bytes(), journal.read_bytes()) == before
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"[1, 2]", b"{}", b"3", b"null", b"", b"{", b"\xff", b"[" * 100_000, b'{"a":' * 100_000,
+     b"7" * 10_000, b'[0, 1, "x", 1, 1, 0, "", 0, "y"]'],
+    ids=lambda line: line[:20].decode(errors="replace"),
+)  # fmt: skip
+@pytest.mark.parametrize("at", [1, 2])
+def test_line_of_a_journal_that_is_none_is_refused(scenes, tmp_path, line, at):
+    out = tmp_path / "answers.jsonl"
+    _, journal = stopped(scenes, out)
+    lines = journal.read_bytes().splitlines()
+    lines[at - 1] = line
+    journal.write_bytes(b"\n".join(lines) + b"\n")
+    before = journal.read_bytes()
+
+    message = refusal(scenes, out)
+
+    assert message.startswith(f"{journal}: " + ("line 2: " if at == 2 else "not "))
+    assert len(message) < 400
+    assert journal.read_bytes() == before
+
+
+def test_journal_with_a_changed_digit_is_refused(scenes, tmp_path):
+    """Without a digest of the line, the batch would count other scenes."""
+    out = tmp_path / "answers.jsonl"
+    _, journal = stopped(scenes, out)
+    text = journal.read_text()
+    count = json.loads(text.splitlines()[1])["failures"]
+    journal.write_text(text.replace(f'"failures": {count}', f'"failures": {count + 1}', 1))
+
+    assert "were changed" in refusal(scenes, out)
+
+
+def test_journal_of_0_2_is_refused(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    journal = tmp_path / "answers.jsonl.journal"
+    journal.write_text('{"exactpt batch": 1, "question": {}, "length": 7}\n')
+
+    assert "of a batch of another version, 1" in refusal(scenes, out)
+
+
+def test_output_that_appears_meanwhile_is_not_replaced(scenes, tmp_path):
+    """The results are kept, and the same call goes on once it is moved away."""
+    out = tmp_path / "answers.jsonl"
+
+    def report(done, length):
+        if done == length:
+            out.write_text("mine")
+
+    with pytest.raises(InputError, match="it exists"):
+        run(scenes, out, report=report)
+    assert out.read_text() == "mine"
+    out.unlink()
+    run(scenes, out)
+    assert out.read_text() == EXPECTED
+    assert left(tmp_path) == ["answers.jsonl", "scenes.jsonl"]
+
+
+def test_files_that_replace_those_of_a_batch_are_not_removed(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    journal = out.with_name("answers.jsonl.journal")
+
+    def report(done, length):
+        if done == length:
+            journal.unlink()
+            journal.write_text("precious")
+
+    run(scenes, out, report=report)
+
+    assert journal.read_text() == "precious"
+    assert out.read_text() == EXPECTED
+
+
+def test_dangling_link_as_output_is_refused(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    out.symlink_to(tmp_path / "elsewhere")
+
+    assert "it exists" in refusal(scenes, out)
+    assert not (tmp_path / "elsewhere").exists()
 
 
 def test_an_output_that_exists_is_left_alone(scenes, tmp_path):
