@@ -16,12 +16,12 @@ PACKAGE = Path(__file__).parent.parent / "exactpt"
 SOURCE, TARGET = PACKAGE / "proof_check.py", PACKAGE / "check_apart.py"
 BEGIN, END = "# ---- Copied from proof_check.py, by .ci/copy_reader.py.", "# ---- End of the copy."
 NAMES = """
- Point Dart Json Entry Triple Track Whole Rows ONE Poses NUMBER MAX_BITS MAX_DEGREE NoProofError
+Point Dart Json Entry Triple Track Whole Rows ONE Poses NUMBER MAX_BITS MAX_DEGREE NoProofError
 Rejected Exhausted Work WORK spend budget PIECE EXACT integer digits written require words
 most_words longest Poly vector_of dot_of values turn meet are_same is_simple surrounds Bare need
 number rational keys entries check_json polynomial degree Motion cleared Body point vertex
-keyframes spin_of path_of Scene MAX_DIGITS MAX_BYTES is_rational read read_json file_bytes say
-MOTION_KEYS BODY_KEYS
+keyframes spin_of spline_of path_of Scene MAX_DIGITS MAX_BYTES is_rational read read_json
+file_bytes say MOTION_KEYS BODY_KEYS
 """.split()  # noqa: SIM905
 METHODS = {  # of classes that are not copied whole
     "Poly": "__new__ __add__ __sub__ __mul__",

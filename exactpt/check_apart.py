@@ -247,7 +247,8 @@ class Body:
     def read_motion(self, data: Json) -> None:
         of_shape = 1 if self.frames else max(map(len, self.shape)) - 1; self.ends: list[Fraction] = []
         if not isinstance(data, dict) or 'pieces' not in data: self.motions = [Motion(data, of_shape)]; return
-        given = keys(data, ['pieces'], ['spin', 'path']); need(len(given) < 3, 'both a spin and a path:', data)
+        given = keys(data, ['pieces'], ['spin', 'path', 'spline'])
+        need(len(given) < 3, 'both a spin and a path (or a spline):', data)
         rows = [keys(p, ['motion'], ['until']) for p in entries(given['pieces'])]
         whole = rows and 'until' not in rows[-1] and all(('until' in p for p in rows[:-1]))
         need(whole, '"until" belongs to all pieces but the last:', data)
@@ -261,6 +262,7 @@ class Body:
                 need(same, f'{self.name!a:.200} jumps at t = {written(t):.200}')
         self.spin = spin_of(given['spin']) if 'spin' in given else None
         self.path = path_of(given['path']) if 'path' in given else None
+        self.spline = spline_of(given['spline']) if 'spline' in given else None
     def rows(self, i: int, t: Fraction) -> Rows:
         if not self.frames: return self.shape[i]
         (s, p), (e, q) = self.around(t)
@@ -308,10 +310,13 @@ def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
 def spin_of(data: Json) -> Point:
     omega, error = (number(keys(data, ['omega', 'error'])[k]) for k in ('omega', 'error'))
     need(error > 0, "a spin's error:", data); return (omega, error)
+def spline_of(data: Json) -> Fraction:
+    error = number(keys(data, ['error'])['error']); need(error >= 0, "a spline's error:", data); return error
 def path_of(data: Json) -> Poses:
-    path = keys(data, ['error', 'place_error', 'times', 'poses'])
-    error, off = (number(path['error']), number(path['place_error']))
-    times = [number(t) for t in entries(path['times'])]
+    path = keys(data, ['error', 'place_error', 'times', 'poses'], ['assumed_angle_error'])
+    assumed = number(path.get('assumed_angle_error', Bare('0')))
+    error, off = (number(path['error']) - assumed, number(path['place_error']))
+    need(assumed >= 0, 'an assumed error of a path:', data); times = [number(t) for t in entries(path['times'])]
     rows = [keys(row, ['x', 'y', 'angle']) for row in entries(path['poses'])]
     poses = [[polynomial(row[k]) for k in ('x', 'y', 'angle')] for row in rows]
     right = error > 0 and off >= 0 and (len(times) == len(poses) + 1 > 1)

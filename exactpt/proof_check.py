@@ -752,8 +752,8 @@ class Body:
         if not isinstance(data, dict) or "pieces" not in data:
             self.motions = [Motion(data, of_shape)]
             return
-        given = keys(data, ["pieces"], ["spin", "path"])
-        need(len(given) < 3, "both a spin and a path:", data)
+        given = keys(data, ["pieces"], ["spin", "path", "spline"])
+        need(len(given) < 3, "both a spin and a path (or a spline):", data)
         rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
         whole = rows and "until" not in rows[-1] and all("until" in p for p in rows[:-1])
         need(whole, '"until" belongs to all pieces but the last:', data)
@@ -767,6 +767,7 @@ class Body:
                 need(same, f"{self.name!a:.200} jumps at t = {written(t):.200}")
         self.spin = spin_of(given["spin"]) if "spin" in given else None
         self.path = path_of(given["path"]) if "path" in given else None
+        self.spline = spline_of(given["spline"]) if "spline" in given else None
         right = not self.spin or turns_by(self.ends, self.motions, self.spin)  # own
         right = right and (not self.path or follows(self.ends, self.motions, self.path))  # own
         need(right, "not such a path or spin:", data)  # own
@@ -868,10 +869,22 @@ def spin_of(data: Json) -> Point:
     return omega, error
 
 
+def spline_of(data: Json) -> Fraction:
+    """Return the error of a spline, which is assumed: pieces are taken as they are."""
+    error = number(keys(data, ["error"])["error"])
+    need(error >= 0, "a spline's error:", data)
+    return error
+
+
 def path_of(data: Json) -> Poses:
-    """Return the errors, the times and the poses of a path."""
-    path = keys(data, ["error", "place_error", "times", "poses"])
-    error, off = number(path["error"]), number(path["place_error"])
+    """Return the errors, the times and the poses of a path.
+
+    Of its error of the angle, a part is assumed; the pieces are to be within the rest.
+    """
+    path = keys(data, ["error", "place_error", "times", "poses"], ["assumed_angle_error"])
+    assumed = number(path.get("assumed_angle_error", Bare("0")))
+    error, off = number(path["error"]) - assumed, number(path["place_error"])
+    need(assumed >= 0, "an assumed error of a path:", data)
     times = [number(t) for t in entries(path["times"])]
     rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
     poses = [[polynomial(row[k]) for k in ("x", "y", "angle")] for row in rows]

@@ -212,8 +212,10 @@ std::vector<Pose> poses(const Json& path) {
 Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_verified) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
     return {{}, {simple_motion(json, shape)}};
-  allow_keys(*json, {"pieces", "spin", "path"});
-  if (json->find("spin") && json->find("path")) throw NoProof("the scene has a spin with a path");
+  allow_keys(*json, {"pieces", "spin", "path", "spline"});
+  int records = 0;
+  for (const char* key : {"spin", "path", "spline"}) records += json->find(key) ? 1 : 0;
+  if (records > 1) throw NoProof("the scene has a spin with a path, or a spline with one");
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
   if (rows.empty()) throw NoProof("the scene has a motion of no pieces");
@@ -237,9 +239,13 @@ Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_ver
       throw NoProof("the scene has a spin whose pieces do not turn so");
   }
   if (const Json* path = json->find("path")) {
-    allow_keys(*path, {"error", "place_error", "times", "poses"});
+    allow_keys(*path, {"error", "place_error", "assumed_angle_error", "times", "poses"});
     const std::vector<Turn> turns = turns_of(pieces);
-    const Rational error = exact_number(member(*path, "error"));
+    // A part of the error of the angle is assumed; the pieces are to be within the rest.
+    const Json* given = path->find("assumed_angle_error");
+    const Rational assumed = given ? exact_number(given) : Rational(0);
+    if (sign(assumed) < 0) throw NoProof("the scene has a path with a negative assumed error");
+    const Rational error = exact_number(member(*path, "error")) - assumed;
     const Rational off = exact_number(member(*path, "place_error"));
     const std::vector<Pose> rows = poses(*path);
     if (sign(error) <= 0 || sign(off) < 0 || rows.empty() || !are_in_order(rows))
@@ -247,6 +253,11 @@ Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_ver
     if (are_records_verified &&
         (turns.size() < pieces.all.size() || !is_path(pieces.until, turns, rows, error, off)))
       throw NoProof("the scene has a path that its pieces do not follow");
+  }
+  if (const Json* spline = json->find("spline")) {
+    allow_keys(*spline, {"error"});
+    if (sign(exact_number(member(*spline, "error"))) < 0)
+      throw NoProof("the scene has a spline with a negative error");
   }
   return pieces;
 }

@@ -1,10 +1,10 @@
-"""Bounds of the time of the first contact, where bodies turn at a constant rate or on paths.
+"""Bounds of the time of the first contact, where places of bodies are known within an error.
 
-The pieces of a `Spin` or a `PosePath` keep each point of body i within e_i of its true place
-(`exactpt.motion.displacement`); for other motions e_i = 0.
+The pieces of a `Spin`, a `PosePath` or a `Spline` keep each point of body i within e_i of its true
+place (`exactpt.motion.displacement`); for other motions e_i = 0.
 
 **Lower bound.** Where two true bodies touch, the given ones are within e_i + e_j: with their
- radii larger by e_i and e_j they touch. So no two true bodies touch before the first contact
+radii larger by e_i and e_j they touch. So no two true bodies touch before the first contact
 of the bodies with these radii; nor at all, if there is none. A body that deforms and turns touches
 itself when it would without turning, at a time that is known exactly.
 
@@ -12,7 +12,18 @@ itself when it would without turning, at a time that is known exactly.
 `exactpt.pairs.sure`: where one pair is sure to touch, the true first contact is not later; nor
 where a point is sure to have passed through an edge since a time as long before the contact of the
 given bodies. Two bodies with e_i + e_j = 0, and a body and itself, touch at a time known exactly.
-At the start of the scene a body whose true angle is 0 is at a known place, too.
+
+**At the start** of the scene the bounds are equal if a contact there is certain. A touch or an
+overlap of the given bodies is not enough. Let s_i be the error of body i at the start where it is
+known best (`exactpt.motion.displacement.placed_at`). If its formula has the angle 0 there, s_i
+is only what is assumed of it: what a caller stated (`PosePath.with_place_error`), and what closing
+up a curve changed. Errors of fitting are not in it: the body is put where the formula puts it.
+Otherwise s_i = e_i. The contact is certain if and only if the true bodies touch wherever they are
+within these errors: after every rigid move by them. `exactpt.pairs.sure.surely_meet` proves it from
+the overlap, which must be at least s_i + s_j (the radii count as overlap); for convex bodies its
+condition is necessary, too. So where s_i + s_j > 0 a mere touch is never certain, and where s_i +
+s_j = 0 it always is. If no contact at the start is certain, and one is possible, the lower bound is
+the start, and the upper bound a later time, if any.
 
 **Width.** Let one pair be concerned, in the approach of a vertex to an edge at a speed of at
 least v, and E = e_i + e_j. From the lower bound on, the distance falls by E to that of a contact
@@ -28,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, final
+from typing import Final, NamedTuple, final
 
 from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
@@ -38,15 +49,12 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
-from exactpt.motion.displacement import displacement
-from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.displacement import Placed, displacement, placed_at
 from exactpt.motion.outline import may_touch_itself
-from exactpt.motion.pose_path import PosePath
-from exactpt.motion.spin import Spin
 from exactpt.pairs.contact import Contact
+from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.selection import Selection
-from exactpt.pairs.start import initial_touches
 from exactpt.pairs.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
@@ -59,7 +67,7 @@ FINEST: Final = 60
 @final
 @dataclass(frozen=True, slots=True)
 class EnclosedContact:
-    """Bounds of the time of the first contact, if a `Spin` or a `PosePath` is approximated.
+    """Bounds of the time of the first contact, if places are known within an error.
 
     Attributes:
         low: no two bodies touch before this time.
@@ -133,6 +141,19 @@ def first_contact_enclosed(
 
 
 @final
+class _Start(NamedTuple):
+    """The contacts of true bodies at the start.
+
+    Attributes:
+        possible: the names of the pairs that may touch there.
+        is_certain: whether one of them is sure to.
+    """
+
+    possible: tuple[tuple[str, str], ...]
+    is_certain: bool
+
+
+@final
 class _Search:
     def __init__(self, scene: Scene, selection: Selection) -> None:
         self._scene = scene
@@ -151,11 +172,15 @@ class _Search:
         touch = self._first(wide)
         if touch is None or (known is not None and known < touch.time):
             return None if known is None else EnclosedContact(known, known, self._pairs(*exact))
-        if touch.time == self._start and (pairs := self._at_start(touch)):
-            return EnclosedContact(touch.time, touch.time, pairs)
+        pairs = self._pairs(touch)
+        if touch.time == self._start:
+            start = self._at_start(touch)
+            if start.is_certain:
+                return EnclosedContact(touch.time, touch.time, start.possible)
+            pairs = start.possible or pairs
         sure = self._sure(touch.time, known)
         high = known if sure is None else AlgebraicNumber(sure)
-        return EnclosedContact(touch.time, high, self._pairs(touch))
+        return EnclosedContact(touch.time, high, pairs)
 
     def _first(self, bodies: Sequence[Body]) -> Contact | None:
         """Return the first contact that counts of bodies with these names."""
@@ -169,18 +194,21 @@ class _Search:
         met.update(pair for contact in contacts for pair in contact.overlaps)
         return tuple(sorted({(a, b) if order[a] <= order[b] else (b, a) for a, b in met}))
 
-    def _at_start(self, touch: Contact) -> tuple[tuple[str, str], ...]:
-        """Return the pairs that may touch at the start; none if no contact is certain."""
-        found = zip(self._scene.bodies, self._errors, strict=True)
-        known = [b for body, e in found if (b := _unturned(body, self._start) if e else body)]
-        names = {body.name for body in known}
-        scene, near = scene_of(known, self._start, self._end), None
-        if not self._selection.is_all:
-            near = Selection(scene, **self._selection.among(known)).all_pairs()
-        meeting = initial_touches(scene, near)[1]
-        met = {(known[i].name, known[j].name) for i, j in meeting}
-        pairs = self._pairs(touch) if met else ()
-        return tuple(pair for pair in pairs if pair in met or not names.issuperset(pair))
+    def _at_start(self, touch: Contact) -> _Start:
+        """Return the contacts at the start, of bodies that are known best at that time."""
+        by_name = {
+            body.name: placed_at(body, self._start, error) if error else Placed(body, error)
+            for body, error in zip(self._scene.bodies, self._errors, strict=True)
+        }
+        possible, is_certain = list[tuple[str, str]](), False
+        for pair in self._pairs(touch):
+            check_budget()
+            a, b = (by_name[name] for name in pair)
+            error = a.error + b.error
+            if pair[0] == pair[1] or _may_meet(a.body, b.body, self._start, error):
+                possible.append(pair)
+                is_certain = is_certain or surely_meet(a.body, b.body, self._start, error)
+        return _Start(tuple(possible), is_certain=is_certain)
 
     def _known(self) -> list[Contact]:
         """Return the first contacts among those whose times are exact."""
@@ -256,16 +284,10 @@ class _Search:
         )
 
 
-def _unturned(body: Body, t: QQ) -> Body | None:
-    """Return a body at its true place at t; None if its true angle at t is not 0, or not known."""
-    spin = body.motion
-    if isinstance(spin, PosePath):
-        x, y, angle = spin._pose(t)
-        return None if angle else body.with_motion(Translation([x], [y]))
-    if not isinstance(spin, Spin) or spin._omega * min(max(t, spin._until[0]), spin._until[-1]):
-        return None
-    turn = next(turn for turn in spin.motions if isinstance(turn, Rigid))
-    return body.with_motion(Translation(turn.x, turn.y))
+def _may_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
+    """Return True if two bodies, of which a point is out of place by an error, may touch at t."""
+    reach = a._radius + b._radius + error
+    return squared_distance(a, b, t) <= reach * reach
 
 
 def _corners(body: Body, t: QQ) -> list[tuple[QQ, QQ]]:

@@ -6,7 +6,7 @@ All results are exact. Float boxes, rounded outward, only rule out pairs of edge
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Final
 
 from exactpt.geometry.predicates import Point, between, orientation
@@ -36,6 +36,27 @@ def is_counter_clockwise(points: Sequence[Point]) -> bool:
     first = min(range(n), key=points.__getitem__)
     turn = orientation(points[first - 1], points[first], points[(first + 1) % n])
     return turn > 0 if turn else signed_area2(points) > 0
+
+
+def is_convex(points: Sequence[Point]) -> bool:
+    """Return True if at least three points are the corners of a convex polygon, in order.
+
+    Corners may be on a straight line with their neighbours. A closed polygon that turns to one side
+    only, and changes from leftward to rightward once, turns by 2 pi: it is convex, and simple.
+    """
+    is_left = is_right = False
+    steps = [(x - u, y - v) for (u, v), (x, y) in pairwise([*points, points[0]])]
+    for (x, y), (u, v) in pairwise([*steps, steps[0]]):
+        turn = x * v - y * u
+        is_left, is_right = is_left or turn > 0, is_right or turn < 0
+        if (is_left and is_right) or (turn == 0 and x * u + y * v <= 0):
+            return False
+    # A vertical step has the direction of the step before it.
+    directions = [x > 0 for x, _ in steps if x]
+    changes = sum(
+        a != b for a, b in zip(directions, [*directions[1:], *directions[:1]], strict=True)
+    )
+    return is_left != is_right and changes == 2
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:

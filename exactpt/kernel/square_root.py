@@ -4,10 +4,20 @@ from __future__ import annotations
 
 from typing import Final
 
-from exactpt.kernel.numbers import QQ, isqrt, isqrt_rem, nearest_float, power_of_two
+from exactpt.kernel.numbers import (
+    QQ,
+    exponent,
+    floor,
+    isqrt,
+    isqrt_rem,
+    nearest_float,
+    power_of_two,
+)
 
 BITS: Final = 64
 """Bits of the integer square root, at least: more than a double and its rounding bit have."""
+BOUND_BITS: Final = 24
+"""Significant bits of rational bounds of a square root, at least."""
 
 
 def nearest_square_root(value: QQ) -> float:
@@ -33,6 +43,20 @@ def exact_square_root(value: QQ) -> QQ | None:
     """Return the square root of a number >= 0 if it is rational, else None."""
     root = QQ(isqrt(value.numerator), isqrt(value.denominator))
     return root if root * root == value else None
+
+
+def root_bounds(value: QQ) -> tuple[QQ, QQ]:
+    """Return rational bounds of the square root of a number >= 0.
+
+    Both are the root if it is rational. Else the larger bound is less than 1 + 2^-23 times the
+    smaller one.
+    """
+    exact = exact_square_root(value)
+    if exact is not None:
+        return exact, exact
+    unit = power_of_two(exponent(value) // 2 - BOUND_BITS)
+    units = isqrt(floor(value / (unit * unit)))
+    return QQ(units) * unit, QQ(units + 1) * unit
 
 
 def nearest_root_less(value: QQ, less: QQ) -> float:

@@ -1,23 +1,34 @@
-"""How far a body that turns by a true angle may be from where its rational pieces put it.
+"""How far a body may be from where its rational pieces put it.
 
 Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the true one (before the
 span and after it, that at its start and at its end). About the pivot, a point at a distance r from
 it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r |a - a'| apart; the translation
 that follows is the same. The distance from the pivot is convex, so on an edge it is largest at a
 vertex. The pieces of a `PosePath` turn about the origin likewise; their translation has an error of
-its own, and the two errors add up.
+its own, and the two errors add up. The pieces of a `Spline` are translated, with an error.
+
+**At one time**, a body may be known better. Of an error, a part may be proved: that of fitting
+rational pieces to the given formula. It is 0 where the formula itself is rational. The rest is
+assumed: a caller stated it, or it was made when a curve was closed up, or angles were unwrapped.
+Nothing is known of it but its size, so it counts at every time, also at the start of a scene.
+At a time t where the formula has the angle 0, the cosine and the sine are rational. So the body is
+put where the formula puts it, not the pieces, and only the assumed part of the error is left: the
+assumed place error, and r times the assumed angle error, now with the largest distance r from the
+pivot at t.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Final
+from typing import Final, NamedTuple, final
 
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ, ceil, exponent, isqrt, power_of_two
+from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.square_root import root_bounds
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid
+from exactpt.motion.local_time import Spline
+from exactpt.motion.motions import Motion, Pieces, Rigid, Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.motion.turned_angle import bound_on
@@ -26,22 +37,76 @@ BITS: Final = 24
 """Significant bits of a displacement, which is rounded up."""
 
 
+@final
+class Placed(NamedTuple):
+    """A body whose true place at a time is known within an error.
+
+    Attributes:
+        body: the body where it is put at that time.
+        error: the largest distance of one of its points from the true one.
+    """
+
+    body: Body
+    error: QQ
+
+
 def displacement(body: Body, start: QQ, end: QQ) -> QQ:
     """Return a bound on how far a point of a body is from its true place, at any time of a span.
 
     At most 1 + 2^-20 times the largest distance from the pivot (of vertices that deform along
     polynomials: times that of their Bernstein coefficients) times the error of the angle, and the
-    place error of a path; 0 if the motion is neither a `Spin` nor a `PosePath`.
+    place error of a path or the error of a spline; 0 if the motion is another one.
     """
     motion = body.motion
-    if not isinstance(motion, (Spin, PosePath)):
+    if isinstance(motion, Spline):
+        off = motion._error
+    elif isinstance(motion, PosePath):
+        off = motion._place_error + _longest_arm(body, motion, start, end) * motion._error
+    elif isinstance(motion, Spin):
+        off = _longest_arm(body, motion, start, end) * motion._error
+    else:
         return QQ(0)
-    pivot = next(turn._pivot for turn in motion.motions if isinstance(turn, Rigid))
-    squared = max(_squared_arms(body, pivot, start, end))
-    off = motion._place_error if isinstance(motion, PosePath) else QQ(0)
-    if squared:
-        off += _root_above(squared) * motion._error
     return _rounded_up(off) if off else off
+
+
+def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
+    """Return where a body is known best at a time.
+
+    Args:
+        body: the body.
+        t: the time.
+        displacement: a bound on how far its points are from their true places, at t too.
+    """
+    motion = body.motion
+    unturned = _unturned(motion, t)
+    if unturned is None:
+        return Placed(body, displacement)
+    error = QQ(0)
+    if isinstance(motion, PosePath):
+        error = motion._assumed_place_error()
+        if motion._assumed_angle_error:
+            error += _longest_arm(body, motion, t, t) * motion._assumed_angle_error
+    return Placed(body.with_motion(unturned), error)
+
+
+def _unturned(motion: Motion, t: QQ) -> Translation | None:
+    """Return a translation to where a formula puts a body at t; None if it turns, or is exact."""
+    if isinstance(motion, PosePath):
+        x, y, angle = motion._pose(t)
+        return None if angle else Translation([x], [y])
+    if isinstance(motion, Spin):
+        turning_since_0 = min(max(t, motion._until[0]), motion._until[-1])
+        if motion._omega * turning_since_0:
+            return None
+        turn = next(turn for turn in motion.motions if isinstance(turn, Rigid))
+        return Translation(turn.x, turn.y)
+    return None
+
+
+def _longest_arm(body: Body, turning: Pieces, start: QQ, end: QQ) -> QQ:
+    """Return a bound on the distance of points of a body from the pivot of its motion."""
+    pivot = next(turn._pivot for turn in turning.motions if isinstance(turn, Rigid))
+    return root_bounds(max(_squared_arms(body, pivot, start, end)))[1]
 
 
 def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
@@ -56,12 +121,6 @@ def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
     for px, py in body._shape.positions:
         dx, dy = px - Polynomial([x]), py - Polynomial([y])
         yield bound_on(dx * dx + dy * dy, start, end)
-
-
-def _root_above(value: QQ) -> QQ:
-    """Return an upper bound on a square root, at most 1 + 2^-21 times it."""
-    unit = power_of_two(2 * (exponent(value) // 2 - BITS))
-    return QQ(isqrt(ceil(value / unit)) + 1) * power_of_two(exponent(value) // 2 - BITS)
 
 
 def _rounded_up(value: QQ) -> QQ:

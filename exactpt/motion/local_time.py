@@ -6,27 +6,15 @@ right in each second": the functions here translate that, exactly.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from itertools import pairwise
-from typing import Any, Protocol
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.curve import PiecewisePolynomial, closed_curve
 from exactpt.motion.motions import Affine, Pieces, Rigid, SimpleMotion, Translation
-
-
-class PiecewisePolynomial(Protocol):
-    """The attributes of ``scipy.interpolate.PPoly``, and of the splines derived from it.
-
-    Attributes:
-        c: coefficients, shape (k, m, 2), the highest power first, in the time since the
-            beginning of the piece.
-        x: m + 1 increasing breakpoints.
-    """
-
-    c: Any
-    x: Any
 
 
 def Velocity(vx: Rational, vy: Rational, *, since: Rational = 0) -> Translation:  # noqa: N802
@@ -94,38 +82,77 @@ def in_local_time(
     return Pieces([*pieces, (None, _held(pieces[-1][1], begin))])
 
 
-def spline(curve: PiecewisePolynomial) -> Pieces:
+@final
+class Spline(Pieces):
+    """The translation along a piecewise polynomial curve that was closed up; see `spline`.
+
+    Args:
+        pieces: as for `Pieces`.
+        error: how far the given curve may be from the pieces, at any time.
+
+    Raises:
+        InputError: if an argument is invalid.
+    """
+
+    __slots__ = ("_error",)
+
+    def __init__(
+        self, pieces: Sequence[tuple[Rational | None, SimpleMotion]], error: Rational
+    ) -> None:
+        super().__init__(pieces)
+        self._error = rational(error)
+        if self._error < 0:
+            raise InputError(f"the error of a spline must not be negative, got {show(self._error)}")
+
+    @property
+    def error(self) -> Fraction:
+        """The largest distance of the given curve from the pieces: the jumps that were closed."""
+        return fraction(self._error)
+
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        (pieces,), _ = super()._given()
+        return (pieces, str(self._error)), {}
+
+    def __repr__(self) -> str:
+        span = f"from t = {show(self._until[0])} to {show(self._until[-1])}"
+        return f"<Spline {span}, {len(self._until) - 1} pieces, error {show(self._error)}>"
+
+
+def spline(curve: PiecewisePolynomial) -> Spline:
     """Return the translation along a piecewise polynomial of SciPy, such as a ``CubicSpline``.
 
-    Coefficients are taken as the exact values of their doubles, but for the constant ones of all
-    pieces but the first: rounded, these make the curve jump by an ulp from one piece to the next.
-    Each piece begins exactly where the one before it ends. The body is at rest before the first
-    breakpoint and after the last.
+    Coefficients are taken as the exact values of their doubles. Rounded, they make the curve jump
+    by an ulp or two from one piece to the next, so each piece is moved to where the piece before
+    it ends (`exactpt.motion.curve`). The attribute ``error`` of the motion is the largest distance
+    from the given curve that results; `first_contact_enclosed` takes it into account. The body is
+    at rest before the first breakpoint and after the last. Pieces of no duration are left out.
+
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> c = np.array([[[0.1, 0.0], [1.0, 1.0]], [[0.2, 0.0], [0.3, 0.0]]])
+    >>> motion = spline(SimpleNamespace(c=c, x=[0, 1, 2]))  # a PPoly of SciPy has c and x, too
+    >>> float(motion.error)  # the doubles 0.1 and 0.2 add up to another number than 0.3
+    2.7755575615628914e-17
 
     Args:
         curve: a curve in the plane, ``PPoly`` or an object with its attributes ``c`` and ``x``.
 
+    Returns:
+        `Pieces` with the attribute ``error``, a length, which cannot be set.
+
     Raises:
-        InputError: if it is not a curve in the plane, or a coefficient is not finite.
+        InputError: if it is not a curve in the plane, a coefficient is not finite, it repeats
+            itself (``extrapolate="periodic"``), or it jumps: by more than 8 ulps of the largest
+            term of the two polynomials where it does.
     """
-    shape: tuple[int, ...] = getattr(getattr(curve, "c", None), "shape", ())
-    if len(shape) != 3 or shape[2] != 2:
-        hint = "; PosePath.of_curve takes x, y and an angle" if shape[2:] == (3,) else ""
-        raise InputError(f"not a piecewise polynomial curve in the plane: {shorten(curve)}{hint}")
-    times = [rational(t) for t in curve.x]
-    first = [rational(c) for c in curve.c[-1, 0]]
-    steps: list[tuple[Rational | None, SimpleMotion]] = []
-    for piece, (begin, end) in enumerate(pairwise(times)):
-        paths = (_from_zero(curve.c[:-1, piece, k]) for k in (0, 1))
-        x, y = (path + c for path, c in zip(paths, first, strict=True))
-        steps.append((end - begin, Translation(x, y)))
-        first = [QQ(0), QQ(0)]
-    return in_local_time(steps, start=times[0])
-
-
-def _from_zero(powers: Iterable[Rational]) -> Polynomial:
-    """Return the polynomial with these coefficients, the highest first, and the constant 0."""
-    return Polynomial([0, *reversed([rational(c) for c in powers])])
+    closed = closed_curve(curve, ("x", "y"))
+    first, last = closed.times[0], closed.times[-1]
+    pieces: list[tuple[Rational | None, SimpleMotion]] = []
+    for begin, end, (x, y) in zip(closed.times, closed.times[1:], closed.pieces, strict=False):
+        since = Polynomial([-begin, 1])
+        pieces.append((end, Translation(x(since), y(since))))
+    before, after = _held(pieces[0][1], first), _held(pieces[-1][1], last)
+    return Spline([(first, before), *pieces, (None, after)], closed.place_offset)
 
 
 def _composed(motion: SimpleMotion, time: Polynomial, x: QQ, y: QQ) -> Translation | Rigid | Affine:

@@ -2,6 +2,18 @@
 
 The pieces of a `PosePath` are made by `exactpt.motion.pose_pieces`; `exactpt.motion.path_error`
 proves the error of any pieces.
+
+**Proved and assumed errors.** A path has three motions: the rational pieces, the polynomials that
+are its poses, and the true motion that a caller means. From the pieces to the poses there is an
+error of fitting, which is proved, and is 0 where the fit is exact. From the poses to the true
+motion there is what the caller states, which is assumed, and counts at every time:
+
+* of the translation, the bounds given to `PosePath.with_place_error`, and the jumps of a curve that
+  were closed (`exactpt.motion.curve`). A path keeps one number P for both errors, so the assumed
+  part is what fitting leaves of it: P less the largest proved distance of the pieces from the
+  poses. (P is at least the sum of the two, so this is at least what was stated.)
+* of the angle, the jumps that were closed, and the rounding of 2 pi where headings were unwrapped.
+  A path keeps this part of `error` by itself, and fits its pieces within the rest of `error`.
 """
 
 from __future__ import annotations
@@ -13,9 +25,21 @@ from typing import final
 
 from exactpt.brief import counted
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, rational, shorten, show
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    fraction,
+    fractions,
+    nearest_float,
+    rational,
+    rationals,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import Polynomial, polynomial
-from exactpt.motion.local_time import PiecewisePolynomial
+from exactpt.kernel.square_root import root_bounds
+from exactpt.motion.curve import PiecewisePolynomial, closed_curve
+from exactpt.motion.headings import check_headings, unwrapped
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.path_error import Pose, angle_error, place_error_squared
 from exactpt.motion.pose_pieces import DEGREE, pieces_along
@@ -40,14 +64,15 @@ class PosePath(Pieces):
         poses: m triples x, y, angle: polynomials in the time since the piece began.
         error: the largest error of the angle, in radians.
         place_error: the largest error of the translation. If it is 0, x and y are taken as they
-            are, of a degree of at most 3; else they are fitted by cubics.
+            are, of a degree of at most 3; else they are fitted by cubics. Of it, what the fit does
+            not need counts as the caller's statement (`assumed_place_error`).
 
     Raises:
         InputError: if an argument is invalid, the path jumps, or more than 100,000 pieces are
             needed.
     """
 
-    __slots__ = ("_error", "_place_error", "_poses", "_times")
+    __slots__ = ("_assumed_angle_error", "_error", "_place_error", "_poses", "_times")
 
     def __init__(
         self,
@@ -58,14 +83,46 @@ class PosePath(Pieces):
         place_error: Rational = 0,
     ) -> None:
         self._hold(times, poses, error, place_error)
-        if not self._place_error:
+        self._fit(self._place_error)
+
+    @classmethod
+    def _of_inexact(
+        cls,
+        times: Sequence[QQ],
+        poses: Sequence[Sequence[Polynomial]],
+        *,
+        error: Rational,
+        assumed_angle_error: QQ,
+        fit_place_error: Rational = 0,
+        assumed_place_error: Rational = 0,
+    ) -> PosePath:
+        """Return a path whose poses differ from the true motion.
+
+        Args:
+            times: see `PosePath`.
+            poses: see `PosePath`.
+            error: see `PosePath`: of pieces and poses together.
+            assumed_angle_error: the part of the error by which the poses may differ.
+            fit_place_error: the largest error of the translation of the pieces.
+            assumed_place_error: that of the poses, which is added to it.
+        """
+        self = cls.__new__(cls)
+        fit = rational(fit_place_error)
+        self._hold(times, poses, error, fit + rational(assumed_place_error), assumed_angle_error)
+        self._fit(fit)
+        return self
+
+    def _fit(self, place_error: QQ) -> None:
+        """Make the pieces, with at most this error of the translation."""
+        if not place_error:
             for i, pose in enumerate(self._poses):
                 for name, f in zip("xy", pose[:2], strict=True):
                     if f.degree > DEGREE:
                         raise InputError(
                             f"piece {i}: {name} has degree {f.degree}: give a place_error"
                         )
-        super().__init__(pieces_along(self._spans(), self._error, self._place_error))
+        angle_error = self._error - self._assumed_angle_error
+        Pieces.__init__(self, pieces_along(self._spans(), angle_error, place_error))
 
     def _hold(
         self,
@@ -73,11 +130,13 @@ class PosePath(Pieces):
         poses: Sequence[Sequence[Coefficients]],
         error: Rational,
         place_error: Rational,
+        assumed_angle_error: Rational = 0,
     ) -> None:
         """Check and keep the path and its errors."""
         self._times = tuple(map(rational, times))
         self._poses = tuple(_pose(i, row) for i, row in enumerate(poses))
         self._error, self._place_error = rational(error), rational(place_error)
+        self._assumed_angle_error = rational(assumed_angle_error)
         if len(self._times) != len(self._poses) + 1 or not self._poses:
             raise InputError(
                 f"a path has at least one pose, and one pose fewer than times: "
@@ -90,6 +149,11 @@ class PosePath(Pieces):
             raise InputError(f"an error is positive: {show(self._error)}")
         if self._place_error < 0:
             raise InputError(f"a place_error is not negative: {show(self._place_error)}")
+        if not 0 <= self._assumed_angle_error < self._error:
+            raise InputError(
+                f"an assumed_angle_error is a part of the error, {show(self._error)}: "
+                f"{show(self._assumed_angle_error)}"
+            )
         for i, (before_it, pose) in enumerate(pairwise(self._poses)):
             end = self._times[i + 1]
             for name, f, g in zip(("x", "y", "the angle"), before_it, pose, strict=True):
@@ -108,10 +172,23 @@ class PosePath(Pieces):
     ) -> PosePath:
         """Return the path along a piecewise polynomial of SciPy with three columns x, y, angle.
 
-        Coefficients are taken as in `spline`: as the values of their doubles, but for the constant
-        ones of all pieces but the first. Pieces of no duration, as `PPoly.from_spline` makes them,
-        are left out. (Of a spline with several columns that function fails in SciPy 1.17.1: go
-        column by column.)
+        Coefficients are taken as the exact values of their doubles. Rounded, they make the curve
+        jump by an ulp or two from one piece to the next, so each piece is moved to where the piece
+        before it ends (`exactpt.motion.curve`). By how far the curve is displaced in x and y is
+        added to the ``place_error`` of the path. By how much its angle is changed is taken out of
+        ``error`` before the pieces are fitted, so that ``error`` is about the given curve.
+
+        Pieces of no duration, as `PPoly.from_spline` makes them, are left out. That function fails
+        for a spline with several columns in SciPy 1.17.1: go column by column. Its coefficients
+        are rounded more than those of other classes; if a jump is refused, set the constants
+        ``c[-1, 1:]`` to where the pieces before end.
+
+        >>> from types import SimpleNamespace
+        >>> import numpy as np
+        >>> c = np.array([[[1.0, 0, 0.1], [1, 0, 0]], [[0, 0, 0.2], [1, 0, 0.3]]])
+        >>> path = PosePath.of_curve(SimpleNamespace(c=c, x=[0, 1, 2]))  # or a PPoly of SciPy
+        >>> path.pose(1)[:2], float(path.assumed_angle_error)
+        ((Fraction(1, 1), Fraction(0, 1)), 2.7755575615628914e-17)
 
         Args:
             curve: ``PPoly``, ``CubicSpline`` or an object with the attributes ``c`` and ``x``.
@@ -119,27 +196,29 @@ class PosePath(Pieces):
             place_error: see `PosePath`; if not given, 0 for degrees up to 3, else 10^-6.
 
         Raises:
-            InputError: if it has not three columns, or a coefficient is not finite.
+            InputError: if it has not three columns, a coefficient is not finite, it repeats itself
+                (``extrapolate="periodic"``), or it jumps: by more than 8 ulps of the largest term
+                of the two polynomials where it does. Also if the smaller jumps of the angle add up
+                to more than half of ``error``.
         """
-        shape: tuple[int, ...] = getattr(getattr(curve, "c", None), "shape", ())
-        if len(shape) != 3 or shape[2] != 3:
+        closed = closed_curve(curve, ("x", "y", "the angle"))
+        angle_offset = max(abs(offset) for _, _, offset in closed.offsets)
+        whole = rational(error)
+        if 0 < whole < 2 * angle_offset:
             raise InputError(
-                f"not a piecewise polynomial with three columns x, y, angle: {shorten(curve)}"
+                f"the small jumps of the angle add up to {nearest_float(angle_offset):.3g}, more "
+                f"than half of the error, {show(whole)}; give a larger error, or a curve that fits"
             )
-        times = [rational(t) for t in curve.x]
-        start = [rational(c) for c in curve.c[-1, 0]]
-        kept, poses = [times[0]], list[list[Polynomial]]()
-        for i, (begin, end) in enumerate(pairwise(times)):
-            if begin == end:
-                continue
-            powers = [[rational(c) for c in curve.c[:-1, i, k]] for k in range(3)]
-            pose = [Polynomial([c, *reversed(p)]) for c, p in zip(start, powers, strict=True)]
-            start = [f._at(end - begin) for f in pose]
-            kept.append(end)
-            poses.append(pose)
         if place_error is None:
-            place_error = 0 if shape[0] <= DEGREE + 1 else "1/1000000"
-        return cls(kept, poses, error=error, place_error=place_error)
+            place_error = 0 if closed.degree <= DEGREE else "1/1000000"
+        return cls._of_inexact(
+            closed.times,
+            closed.pieces,
+            error=whole,
+            assumed_angle_error=angle_offset,
+            fit_place_error=place_error,
+            assumed_place_error=closed.place_offset,
+        )
 
     @classmethod
     def through(
@@ -148,13 +227,22 @@ class PosePath(Pieces):
         samples: Sequence[Sequence[Rational]],
         *,
         ramp: Rational = 0,
+        unwrap: bool = False,
         error: Rational = "1/1000000",
     ) -> PosePath:
         """Return the path through samples, at constant rates or from rest to rest.
 
+        An angle is a number of radians, and the body turns from one angle to the next through all
+        the angles between them. A log of headings between -pi and pi jumps where a heading passes
+        pi; by the numbers the body would turn back almost all the way around there. So two
+        successive angles that differ by more than pi are refused, unless they are unwrapped.
+
         >>> path = PosePath.through([0, 3], [(0, 0, 0), (2, 0, 1)], ramp="1/3")
         >>> [path.pose(t)[0] for t in (0, 1, 2, 3)]  # trapezoidal: speeds up, goes on, slows down
         [Fraction(0, 1), Fraction(1, 2), Fraction(3, 2), Fraction(2, 1)]
+        >>> log = PosePath.through([0, "1/100"], [(0, 0, 3.13), (0, 0, -3.13)], unwrap=True)
+        >>> float(log.pose("1/200")[2])  # on past pi, not back through 0
+        3.141592653589793
 
         Args:
             times: increasing times.
@@ -162,24 +250,33 @@ class PosePath(Pieces):
             ramp: the part of the duration between two samples in which x, y and the angle speed up
                 at a constant rate, and that in which they slow down, at most 1/2: trapezoidal
                 profiles. With 0 rates are constant between samples.
+            unwrap: whether each angle stands for a heading, which full turns do not change: the
+                body turns to it by at most pi. Of ``error``, at most a thousandth is needed for
+                2 pi as a rational number.
             error: see `PosePath`.
 
         Raises:
-            InputError: if an argument is invalid.
+            InputError: if an argument is invalid, or two successive angles differ by more than pi
+                and are not unwrapped.
         """
         part = rational(ramp)
         if not 0 <= part <= rational("1/2"):
             raise InputError(f"a ramp is between 0 and 1/2: {show(part)}")
-        ts, rows = [rational(t) for t in times], [list(map(rational, row)) for row in samples]
-        if len(ts) != len(rows) or any(len(row) != 3 for row in rows):
-            raise InputError("a path through samples has x, y and the angle for each time")
+        ts, rows = _samples(times, samples)
+        whole, rounding = rational(error), QQ(0)
+        headings = [angle for _, _, angle in rows]
+        if unwrap:
+            headings, rounding = unwrapped(headings, whole)
+            rows = [(x, y, angle) for (x, y, _), angle in zip(rows, headings, strict=True)]
+        else:
+            check_headings(headings)
         all_times, poses = ts[:1], list[list[Polynomial]]()
         for (begin, end), (first, last) in zip(pairwise(ts), pairwise(rows), strict=True):
             for until, profile in _profile(end - begin, part):
                 moves = [q - p for p, q in zip(first, last, strict=True)]
                 poses.append([profile * m + p for m, p in zip(moves, first, strict=True)])
                 all_times.append(begin + until)
-        return cls(all_times, poses, error=error)
+        return cls._of_inexact(all_times, poses, error=whole, assumed_angle_error=rounding)
 
     @classmethod
     def of_pieces(
@@ -189,6 +286,7 @@ class PosePath(Pieces):
         poses: Sequence[Sequence[Coefficients]],
         error: Rational,
         place_error: Rational = 0,
+        assumed_angle_error: Rational = 0,
     ) -> PosePath:
         """Return the path that consists of given pieces, after a proof that they follow it.
 
@@ -199,13 +297,14 @@ class PosePath(Pieces):
             poses: see `PosePath`.
             error: see `PosePath`.
             place_error: see `PosePath`.
+            assumed_angle_error: the part of the error that is not proved (see the attribute).
 
         Raises:
             InputError: if they do not follow the path within the errors.
         """
         self = cls.__new__(cls)
         Pieces.__init__(self, pieces)
-        self._hold(times, poses, error, place_error)
+        self._hold(times, poses, error, place_error, assumed_angle_error)
         if (wrong := self._not_within()) is not None:
             raise InputError(
                 f"the pieces do not follow the path within {show(self._error)} (piece {wrong})"
@@ -221,7 +320,11 @@ class PosePath(Pieces):
         return spans
 
     def _not_within(self) -> int | None:
-        """Return the number of a piece that is not proved to be within the errors; None if none."""
+        """Return the number of a piece that is not proved to be within the errors; None if none.
+
+        The angle of the pieces must be within the part of the error that is not assumed.
+        """
+        provable = self._error - self._assumed_angle_error
         ends, spans = self._until, self._spans()
         if len(ends) < 2 or (ends[0], ends[-1]) != (self._times[0], self._times[-1]):
             return 0
@@ -235,7 +338,7 @@ class PosePath(Pieces):
             if a == b and max(turn.half_turn.degree, turn.x.degree, turn.y.degree) > 0:
                 return i
             x, y, angle = spans[k][2]
-            if angle_error(turn, a, b, angle, self._error) > self._error:
+            if angle_error(turn, a, b, angle, provable) > provable:
                 return i
             if place_error_squared(turn, a, b, x, y) > self._place_error**2:
                 return i
@@ -256,6 +359,36 @@ class PosePath(Pieces):
         """The largest error of the translation."""
         return fraction(self._place_error)
 
+    @property
+    def assumed_angle_error(self) -> Fraction:
+        """The part of `error` by which the true angle may differ from that of the poses.
+
+        It counts at every time; the rest of `error` is proved, and is 0 where the fit is exact.
+        """
+        return fraction(self._assumed_angle_error)
+
+    @property
+    def assumed_place_error(self) -> Fraction:
+        """The part of `place_error` by which the true place may differ from that of the poses.
+
+        It counts at every time; the rest of `place_error` is proved, and is 0 where the fit is
+        exact.
+        """
+        return fraction(self._assumed_place_error())
+
+    def _assumed_place_error(self) -> QQ:
+        """Return what is left of the place error beside the proved distance from the poses."""
+        if not self._place_error:
+            return QQ(0)
+        spans, k, most = self._spans(), 0, QQ(0)
+        for (a, b), turn in zip(pairwise(self._until), self.motions[1:-1], strict=True):
+            while a >= spans[k][1]:
+                k += 1
+            x, y, _ = spans[k][2]
+            if isinstance(turn, Rigid):
+                most = max(most, place_error_squared(turn, a, b, x, y))
+        return self._place_error - root_bounds(most)[0]
+
     def with_place_error(self, more: Rational) -> PosePath:
         """Return the same pieces for a true path that is known less well.
 
@@ -271,7 +404,9 @@ class PosePath(Pieces):
         if further < 0:
             raise InputError(f"a place_error is not negative: {show(further)}")
         total = self._place_error + further
-        return PosePath.of_pieces(self.pieces, self._times, self._poses, self._error, total)
+        return PosePath.of_pieces(
+            self.pieces, self._times, self._poses, self._error, total, self._assumed_angle_error
+        )
 
     def pose(self, t: Rational) -> tuple[Fraction, Fraction, Fraction]:
         """Return x, y and the angle of the path itself at a time."""
@@ -287,7 +422,8 @@ class PosePath(Pieces):
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         (pieces,), _ = super()._given()
         times = tuple(map(str, self._times))
-        return (pieces, times, self._poses, str(self._error), str(self._place_error)), {}
+        errors = map(str, (self._error, self._place_error, self._assumed_angle_error))
+        return (pieces, times, self._poses, *errors), {}
 
     def __reduce__(self) -> tuple[object, ...]:
         return PosePath.of_pieces, self._given()[0]
@@ -303,6 +439,32 @@ def _pose(i: int, row: Sequence[Coefficients]) -> Pose:
         raise InputError(f"piece {i}: a pose is x, y and an angle: {shorten(row)}")
     x, y, angle = map(polynomial, row)
     return x, y, angle
+
+
+def _samples(
+    times: Sequence[Rational], samples: Sequence[Sequence[Rational]]
+) -> tuple[list[QQ], list[tuple[QQ, QQ, QQ]]]:
+    """Return the times and the poses of a log, checked row by row."""
+    ts, rows = list(times), list(samples)
+    if len(ts) != len(rows):
+        raise InputError(
+            f"a path through samples has x, y and the angle for each time: {len(ts)} times, "
+            f"{len(rows)} samples"
+        )
+    checked = list[tuple[QQ, tuple[QQ, QQ, QQ]]]()
+    for i, (time, row) in enumerate(zip(ts, rows, strict=True)):
+        try:
+            t = rational(time)
+            x, y, angle = rationals(row, 3, "a sample is x, y and the angle")
+        except InputError as error:
+            raise InputError(f"row {i}: {error}") from None
+        if checked and t <= checked[-1][0]:
+            raise InputError(
+                f"row {i}: times increase, got {show(t)} after {show(checked[-1][0])}; "
+                f"sort the rows, and leave out repeated ones"
+            )
+        checked.append((t, (x, y, angle)))
+    return [t for t, _ in checked], [pose for _, pose in checked]
 
 
 def _profile(duration: QQ, ramp: QQ) -> list[tuple[QQ, Polynomial]]:

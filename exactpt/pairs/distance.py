@@ -184,6 +184,14 @@ def _squared(u: Point, v: Point) -> QQ:
     return (u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2
 
 
+def squared_from_segment(v: Point, segment: tuple[Point, Point]) -> QQ:
+    """Return the squared distance of a point from a segment."""
+    inside = squared_from_interior(v, *segment)
+    if inside is not None:
+        return inside
+    return min((v[0] - x) ** 2 + (v[1] - y) ** 2 for x, y in segment)
+
+
 def squared_from_interior(v: Point, a: Point, b: Point) -> QQ | None:
     """Return the squared distance of v from ab; None if the nearest point is an end."""
     x, y = b[0] - a[0], b[1] - a[1]

@@ -4,23 +4,46 @@ Let each point of the core of body A be at most e_A from its true place, of B at
 E = e_A + e_B, r the sum of the radii, m = E - r. The true bodies touch if the true cores are within
 r of each other. This is sure
 
-* if m <= 0 and the cores are within -m of each other: two nearest points are then true within r;
-* if m > 0 and an edge P of one crosses an edge Q of the other, each end of P being at least m from
-  Q, and each end of Q from P;
-* if m > 0 and a vertex of one is inside the other, a polygon, and at least m from its boundary.
+* if m <= 0 and the cores are within -m of each other: two nearest points are true within r;
+* if m > 0 and a convex part P of one and a convex part Q of the other overlap by at least m: for
+  each unit vector n, the largest n.p of a point p of P exceeds the least n.q of a point q of Q by
+  at least m;
+* if m > 0 and a point of one is in the other, a polygon, and its distances from the boundaries of
+  both add up to at least m (the first of them is 0 for a vertex, and for a point of a chain).
 
-*Proof of the last two.* Parametrise P by s and Q by u, both in [0, 1], and let F(s, u) = P(s) -
-Q(u); in the last case P is the vertex, and Q the boundary. Crossing edges: F is affine and
-regular and is 0 at one inner point of the square, so on its boundary F winds once around 0. A
-vertex inside: F(u) winds around 0 an odd number of times, all rings of the boundary taken
-together. On these curves |F| >= m. Let F' be the same of the true places, so |F' - F| <= E, and
-suppose that the true bodies do not touch: |F'| > r. Then |F| + |F'| > E >= |F - F'|, so F and F'
-are nowhere opposite, and h F + (1 - h) F' is not 0 for any h in [0, 1]: F' winds around 0 as F
-does, on each ring. Of edges, F' then is 0 in the square, and of a vertex, it is inside the true
-polygon: contradictions.
+An edge is convex, and so is a body that is a point, a segment or a convex polygon. Otherwise the
+true bodies may miss each other.
 
-Points correspond along edges, since a rotation maps edges to edges. Where cores intersect but
-none of the above holds, the true bodies may miss each other.
+*Convex parts.* For a convex set P let h_P(n) be the largest n.p of a point p of P, its support in
+the direction n. Let g(n) = h_P(n) + h_-Q(n), the overlap in the direction n: the support of the
+set P - Q of all differences. The distance of P and Q is the largest -g(n), or 0 if g >= 0
+everywhere. The true places P' and Q' are congruent to P and Q, so they are convex, too. Their
+points are out of place by at most e_A and e_B, so g' >= g - E >= m - E = -r for all n: the distance
+of the true parts is at most r.
+
+*This is necessary for convex bodies.* If g(n) < m for one unit vector n, let A be moved by -e_A n
+and B by e_B n. These are rigid moves by the errors. Then g'(n) = g(n) - E < -r: the bodies are more
+than r apart. So an overlap of convex bodies is certain if and only if it is one after every rigid
+move by the errors; the first condition of the three is this one with m <= 0.
+
+*The least overlap.* If g >= m > 0 everywhere, the disc of radius m around 0 is in P - Q, which is a
+convex polygon then. Its distance from 0 is that of an edge; an edge of P - Q is parallel to one of
+P or of Q. So normals of edges of P and of Q, on both sides of a segment, are the only directions
+that are tested. If P - Q has no area, they include one with g(n) <= 0, unless both are points.
+
+*A point in both.* Let x be in A at a distance a from its boundary, and in B at a distance b, with
+a + b >= m; on a chain the distance is 0. First let both be polygons with a, b > 0. For w in the
+unit disc, p = x + a w is in A and q = x - b w in B. Let F(w) = p - q = (a + b) w, and F' the
+same of the true places of p and q, so |F' - F| <= E. On the unit circle F winds once around 0, and
+|F| >= m. Suppose that the true bodies do not touch: |F'| > r everywhere. Then |F| + |F'| > E >=
+|F - F'| on the circle, so F and F' are nowhere opposite, and h F + (1 - h) F' is not 0 for any h in
+[0, 1]: F' winds around 0 as F does. But F' is continuous and not 0 in the disc: a contradiction. If
+a = 0, x is a point of A, and F runs over the boundary of B instead, u -> x - B(u). It winds around
+0 an odd number of times, all rings taken together, since x is inside; and |F| >= b >= m. As before
+F' winds as F does, so the true point is inside the true polygon: a contradiction. Such points are
+sought in the vertices; if one of two polygons is not convex, also by `exactpt.pairs.depth`.
+
+Points correspond along edges and in polygons, since a rotation is a map of the plane.
 
 A point is never sure to touch a thin body at a given time, but it may be sure to have passed
 through an edge ab between two times: if m > 0, the foot of the perpendicular from it is inside
@@ -35,9 +58,10 @@ on t alone. There |F| >= m; the rest is as above.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import TypeAlias
 
-from exactpt.geometry.polygon import segments_meet
+from exactpt.geometry.polygon import is_convex
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
@@ -46,7 +70,8 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
 from exactpt.motion.track import Touch
-from exactpt.pairs.distance import squared_distance, squared_from_interior
+from exactpt.pairs.depth import have_deep_point
+from exactpt.pairs.distance import squared_distance, squared_from_segment
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.piece_pairs import piece_pairs, segments_of
 
@@ -67,11 +92,58 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
         return squared_distance(a, b, t) <= margin * margin
     p, q = a._at(t), b._at(t)
     least = margin * margin
+    first, second = convex_parts(a, p), convex_parts(b, q)
+    if any(overlap_everywhere(c, d, least) for c in first for d in second):
+        return True
+    if len(first) == len(second) == 1:
+        return False
     return (
         any(_is_deep(v, b, q, least) for v in p)
         or any(_is_deep(v, a, p, least) for v in q)
-        or any(_cross_far(e, f, least) for e in _segments(a, p) for f in _segments(b, q))
+        or have_deep_point(a, p, b, q, margin)
     )
+
+
+def convex_parts(body: Body, points: Sequence[Point]) -> list[Sequence[Point]]:
+    """Return convex sets that a body contains: itself if it is convex, else its edges.
+
+    Args:
+        body: the body.
+        points: the places of its vertices.
+    """
+    if body.has_interior:
+        is_whole = not body.has_rings and is_convex(points)
+    else:
+        is_whole = body.size <= 2
+    return [points] if is_whole else list(_segments(body, points))
+
+
+def overlap_everywhere(p: Sequence[Point], q: Sequence[Point], least: QQ) -> bool:
+    """Return True if two convex sets overlap by a length in every direction.
+
+    Args:
+        p: the corners of one of them, in order.
+        q: those of the other.
+        least: the square of the length, which is positive.
+    """
+    if len(p) == len(q) == 1:
+        return False
+    return all(
+        overlap > 0 and overlap * overlap >= least * (x * x + y * y)
+        for x, y, overlap in (*_overlaps(p, q), *_overlaps(q, p))
+    )
+
+
+def _overlaps(p: Sequence[Point], q: Sequence[Point]) -> Iterator[tuple[QQ, QQ, QQ]]:
+    """Yield both normals of each edge of p, and the overlap of p with q in their directions.
+
+    The overlap is multiplied by the length of the normal. It must be large enough in every
+    direction, so the inner normals of a polygon do no harm.
+    """
+    for (ax, ay), (bx, by) in pairwise([*p, *p[:1]]):
+        for x, y in ((ay - by, bx - ax), (by - ay, ax - bx)):
+            if x or y:
+                yield x, y, max(x * u + y * v for u, v in p) - min(x * u + y * v for u, v in q)
 
 
 def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error: QQ) -> bool:
@@ -92,7 +164,7 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
     sides = []
     for t in (begin, end):
         v, a, b = point._at(t)[0], other._at(t)[ends[0]], other._at(t)[ends[1]]
-        if _squared(v, (a, b)) < margin * margin:
+        if squared_from_segment(v, (a, b)) < margin * margin:
             return False
         sides.append(orientation(a, b, v))
     if sides[0] * sides[1] >= 0:
@@ -120,20 +192,5 @@ def _segments(body: Body, points: Sequence[Point]) -> Iterator[Segment]:
 def _is_deep(v: Point, body: Body, points: Sequence[Point], least: QQ) -> bool:
     """Return True if v is in a polygon, at least at a squared distance from its boundary."""
     return covers(body, points, v) and all(
-        _squared(v, edge) >= least for edge in _segments(body, points)
+        squared_from_segment(v, edge) >= least for edge in _segments(body, points)
     )
-
-
-def _cross_far(e: Segment, f: Segment, least: QQ) -> bool:
-    """Return True if segments cross, all ends at least a squared distance from the other."""
-    return (
-        segments_meet(*e, *f)
-        and all(_squared(v, f) >= least for v in e)
-        and all(_squared(v, e) >= least for v in f)
-    )
-
-
-def _squared(v: Point, segment: Segment) -> QQ:
-    """Return the squared distance of a point from a segment."""
-    inside = squared_from_interior(v, *segment)
-    return min((v[0] - x) ** 2 + (v[1] - y) ** 2 for x, y in segment) if inside is None else inside

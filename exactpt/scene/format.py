@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.files import read_text
@@ -35,6 +36,9 @@ from exactpt.scene.json_values import (
     with_long_texts,
 )
 from exactpt.scene.scene import Scene
+
+_RECORDS: Final = ("spin", "path", "spline")
+"""The keys that may stand beside the pieces of a motion, one at most: what the pieces follow."""
 
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:
@@ -197,9 +201,9 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        an_object(data, where, required=["pieces"], optional={"spin", "path"})
-        if "spin" in data and "path" in data:
-            raise InputError(f'{where}: "spin" and "path" exclude each other')
+        an_object(data, where, required=["pieces"], optional={*_RECORDS})
+        if len(given := [key for key in _RECORDS if key in data]) > 1:
+            raise InputError(f'{where}: "{given[0]}" and "{given[1]}" exclude each other')
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
         rows = a_list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
@@ -211,6 +215,7 @@ def _motion(data: Json, where: str) -> Motion:
             pieces.append((until, _simple_motion(piece["motion"], f'{at}: "motion"')))
         spin = _rate_and_error(data["spin"], f'{where}: "spin"') if "spin" in data else None
         path = _path(data["path"], f'{where}: "path"') if "path" in data else None
+        off = _spline_error(data["spline"], f'{where}: "spline"') if "spline" in data else None
         try:
             if path:
                 from exactpt.motion.pose_path import PosePath
@@ -220,6 +225,10 @@ def _motion(data: Json, where: str) -> Motion:
                 from exactpt.motion.spin import Spin
 
                 return Spin.of_pieces(pieces, *spin)
+            if off is not None:
+                from exactpt.motion.local_time import Spline
+
+                return Spline(pieces, off)
             return Pieces(pieces)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
@@ -232,9 +241,16 @@ def _rate_and_error(data: Json, where: str) -> tuple[QQ, QQ]:
     return omega, error
 
 
-def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ, QQ]:
-    """Return the times, the poses and the two errors of a path."""
-    path = an_object(data, where, required=["error", "place_error", "times", "poses"])
+def _spline_error(data: Json, where: str) -> QQ:
+    """Return the error of a spline, by which the given curve may be off the pieces."""
+    spline = an_object(data, where, required=["error"])
+    return exact_number(spline["error"], f'{where}: "error"')
+
+
+def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ, QQ, QQ]:
+    """Return the times, the poses and the three errors of a path."""
+    required = ["error", "place_error", "times", "poses"]
+    path = an_object(data, where, required=required, optional={"assumed_angle_error"})
     times = [exact_number(t, f'{where}: "times"') for t in a_list(path["times"], where)]
     poses = []
     for i, row in enumerate(a_list(path["poses"], where)):
@@ -242,7 +258,10 @@ def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ,
         pose = an_object(row, at, required=["x", "y", "angle"])
         poses.append([_coordinate(pose, key, at) for key in ("x", "y", "angle")])
     error, off = (exact_number(path[k], f'{where}: "{k}"') for k in ("error", "place_error"))
-    return times, poses, error, off
+    assumed = exact_number(
+        path.get("assumed_angle_error", Number("0")), f'{where}: "assumed_angle_error"'
+    )
+    return times, poses, error, off, assumed
 
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:

@@ -13,6 +13,7 @@ from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
+from exactpt.motion.local_time import Spline
 from exactpt.motion.motions import (
     REST,
     Affine,
@@ -142,6 +143,8 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
             pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
         if isinstance(motion, PosePath):
             pieces["path"] = _path_to_json(motion)
+        if isinstance(motion, Spline):
+            pieces["spline"] = {"error": _text(motion._error)}
         return pieces
     if isinstance(motion, Rigid):
         rigid = {
@@ -163,9 +166,11 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
 
 
 def _path_to_json(path: PosePath) -> dict[str, object]:
+    assumed = path._assumed_angle_error
     return {
         "error": _text(path._error),
         "place_error": _text(path._place_error),
+        **({"assumed_angle_error": _text(assumed)} if assumed else {}),
         "times": [_text(t) for t in path._times],
         "poses": [
             {"x": _coefficients(x), "y": _coefficients(y), "angle": _coefficients(angle)}
