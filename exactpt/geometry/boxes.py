@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.kernel.rounding import FAR
+from exactpt.kernel.numbers import QQ, relative_doubles
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -33,21 +32,16 @@ _CHUNK: Final = 1 << 21
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     """Return the bounding box of each group of points, rounded outward.
 
-    Where all points are close together but far from the origin, boxes are relative to one of
-    the points, so that rounding keeps them apart. Rounding is monotone, so the nearest double
-    of the least coordinate is the least of the nearest doubles, and the next double below is
-    at most the coordinate.
+    They may be relative to one of the points (`relative_doubles`). Rounding is monotone, so the
+    nearest double of the least coordinate is the least of the nearest doubles, and the next double
+    below is at most the coordinate.
     """
     rows = np.empty((len(groups), 4))
     if not groups:
         return rows
     firsts = np.cumsum([0, *map(len, groups[:-1])])
     for axis in (0, 1):
-        near = [nearest_float(p[axis]) for points in groups for p in points]
-        least, most = min(near), max(near)
-        if not max(-least, most) <= FAR * (most - least):  # true also if both are infinite
-            origin = groups[0][0][axis]
-            near = [nearest_float(p[axis] - origin) for points in groups for p in points]
+        near, _ = relative_doubles([p[axis] for points in groups for p in points])
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
         rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
     return grown(rows, 0.0)

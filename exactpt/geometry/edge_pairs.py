@@ -26,8 +26,10 @@ CHUNK: Final = 1 << 10
 """Number of pairs of these that are compared at once, so that their numbers stay in the cache."""
 
 
-def near_edges(first: Floats, last: Floats, error: float, *, closed: bool) -> Iterator[Pairs]:
-    """Yield the pairs i < j of edges that may intersect, without neighbours, in chunks.
+def near_edges(
+    first: Floats, last: Floats, error: float, *, closed: bool, neighbours: bool = False
+) -> Iterator[Pairs]:
+    """Yield the pairs i < j of edges that may intersect, in chunks; without neighbours by default.
 
     The coordinate of a vertex along an axis of `AXES` is off by at most ``error``, and by U times
     the largest coordinate as its one sum is rounded; `TINY` covers underflow. ``off`` covers twice
@@ -38,6 +40,7 @@ def near_edges(first: Floats, last: Floats, error: float, *, closed: bool) -> It
         last: where they end; the next one starts there.
         error: a bound on the errors of all coordinates.
         closed: whether the first edge starts where the last one ends.
+        neighbours: whether to yield neighbours, too; then edges may start anywhere.
     """
     n, (x, y), (u, v) = len(first), first.T.copy(), last.T.copy()
     off = 4.0 * (error + U * float(np.abs(first).max())) * SLACK + TINY
@@ -56,8 +59,10 @@ def near_edges(first: Floats, last: Floats, error: float, *, closed: bool) -> It
             check_budget()
             i, j = _overlapping(chains[2:], one[k : k + CHUNK], other[k : k + CHUNK])
             i, j = _edges_of(i, j)
-            apart = (j > i + 1) & (j < n) & ~(closed & (j - i == n - 1))
-            yield _overlapping(edges, i[apart], j[apart])
+            wanted = (j > i) & (j < n)
+            if not neighbours:
+                wanted &= (j > i + 1) & ~(closed & (j - i == n - 1))
+            yield _overlapping(edges, i[wanted], j[wanted])
 
 
 def _overlapping(extents: Extents, i: Indices, j: Indices) -> Pairs:

@@ -6,6 +6,7 @@ the other bodies are for `exactpt.geometry.polygon.first_self_touch`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
@@ -127,6 +128,22 @@ def _beside(u: Floats, p: Floats, v: Floats, error: Floats | float) -> Flags:
     return beside
 
 
+def cross_signs(
+    u: tuple[Floats, Floats], v: tuple[Floats, Floats], off: Floats | float = 0.0
+) -> NDArray[np.int8]:
+    """Return the signs of u x v, rounded differences of coordinates; 0 where they are not certain.
+
+    Args:
+        u: shape (n,) each, with a relative error of at most U, and ``off``.
+        v: likewise.
+        off: a bound on the absolute errors of the exact differences.
+    """
+    (ux, uy), (vx, vy) = u, v
+    p, q = ux * vy, uy * vx
+    size = np.abs(ux) + np.abs(uy) + np.abs(vx) + np.abs(vy)
+    return _sign(p - q, K * (np.abs(p) + np.abs(q)) + off * (size + 2.0 * off) * SLACK + TINY)
+
+
 def _sign(value: Floats, error: Floats) -> NDArray[np.int8]:
     return (value > error).astype(np.int8) - (value < -error).astype(np.int8)
 
@@ -156,13 +173,9 @@ def surely_simple(
     dx, dy = d[:, 0], d[:, 1]
     before = np.arange(len(d)) - 1
     before[edges.offsets[:-1]] = edges.offsets[1:] - 1
-    p, q = dx[before] * dy, dy[before] * dx
-    error = K * (np.abs(p) + np.abs(q)) + TINY
     off = None if rounded is None else 2.0 * SLACK * rounded
-    if off is not None:
-        length, e = np.abs(dx) + np.abs(dy), np.repeat(off, native(np.diff(edges.offsets)))
-        error += e * (length + length[before] + 2.0 * e) * SLACK
-    turn = _sign(p - q, error)
+    each = 0.0 if off is None else np.repeat(off, native(np.diff(edges.offsets)))
+    turn = cross_signs((dx[before], dy[before]), (dx, dy), each)
     upward = (dy > 0.0) | ((dy == 0.0) & (dx > 0.0))
     starts = native(edges.offsets[:-1])
     rings = closed & (sizes > 2)
@@ -217,3 +230,28 @@ def _surely_apart(first: Floats, d: Floats, e: Indices, f: Indices, off: Floats 
     p = first[f] - first[e]
     u, v = (d[e, 0], d[e, 1]), (d[f, 0], d[f, 1])
     return segments_meet(u, v, (p[:, 0], p[:, 1]), off, off)[0]
+
+
+@np.errstate(all="ignore")
+def unclear_pairs(
+    x: Sequence[float], y: Sequence[float], edges: Sequence[tuple[int, int]], error: float
+) -> Iterator[tuple[int, int]]:
+    """Yield the pairs i < j of edges that may have more in common than an end of both.
+
+    Args:
+        x: coordinates of points.
+        y: the other coordinates.
+        edges: pairs of these points.
+        error: a bound on the errors of all coordinates.
+    """
+    points = np.array((x, y)).T
+    starts, ends = np.array(edges).T
+    first, last = points[starts], points[ends]
+    d = last - first
+    off = 2.0 * SLACK * error
+    for i, j in near_edges(first, last, error, closed=False, neighbours=True):
+        joined = (starts[i] == starts[j]) | (starts[i] == ends[j])
+        joined |= (ends[i] == starts[j]) | (ends[i] == ends[j])
+        bend = cross_signs((d[i, 0], d[i, 1]), (d[j, 0], d[j, 1]), off) != 0
+        clear = np.where(joined, bend, _surely_apart(first, d, i, j, off))
+        yield from zip(i[~clear].tolist(), j[~clear].tolist(), strict=True)

@@ -49,7 +49,7 @@ def is_surely_simple(
         return n == 1 or abs(xs[1] - xs[0]) > 3.0 * error or abs(ys[1] - ys[0]) > 3.0 * error
     if closed and n == 3:
         sides = xs[1] - xs[0], ys[1] - ys[0], xs[2] - xs[1], ys[2] - ys[1]
-        return _cross_sign(*sides, error) != 0
+        return cross_sign(*sides, error) != 0
     if closed and _turns_once(xs, ys, error):
         return True
     if n > FEW:
@@ -79,7 +79,7 @@ def orientation_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact
     if not is_exact:
         error = 2.0 * U * max(abs(v) for k in (i - 1, i, j) for v in (xs[k], ys[k]))
     vx, vy = xs[j] - x, ys[j] - ys[i]
-    return _cross_sign(x - xs[i - 1], ys[i] - ys[i - 1], vx, vy, error)
+    return cross_sign(x - xs[i - 1], ys[i] - ys[i - 1], vx, vy, error)
 
 
 def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
@@ -103,7 +103,7 @@ def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
             return False  # perhaps upright, perhaps not
         j = i + 1 if i + 1 < len(xs) else 0
         vx, vy = xs[j] - xs[i], ys[j] - ys[i]
-        s = _cross_sign(ux, uy, vx, vy, error)
+        s = cross_sign(ux, uy, vx, vy, error)
         if s in (0, -side):
             return False
         side = s
@@ -134,14 +134,14 @@ def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, cl
     for i, j in combinations(range(m), 2):
         if j == i + 1 or (closed and j - i == m - 1):
             a, b = (rows[i], rows[j]) if j == i + 1 else (rows[j], rows[i])
-            if not _cross_sign(a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1], error):
+            if not cross_sign(a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1], error):
                 return False
-        elif not _are_apart(rows[i], rows[j], error):
+        elif not are_apart(rows[i], rows[j], error):
             return False
     return True
 
 
-def _are_apart(e: Edge, f: Edge, error: float) -> bool:
+def are_apart(e: Edge, f: Edge, error: float) -> bool:
     """Return True if two edges are certainly disjoint, by boxes or by the line of one."""
     ax, ay, bx, by = e
     cx, cy, dx, dy = f
@@ -154,15 +154,15 @@ def _are_apart(e: Edge, f: Edge, error: float) -> bool:
     ):
         return True
     ux, uy = bx - ax, by - ay
-    s = _cross_sign(ux, uy, cx - ax, cy - ay, error)
-    if s and s == _cross_sign(ux, uy, dx - ax, dy - ay, error):
+    s = cross_sign(ux, uy, cx - ax, cy - ay, error)
+    if s and s == cross_sign(ux, uy, dx - ax, dy - ay, error):
         return True
     vx, vy = dx - cx, dy - cy
-    s = _cross_sign(vx, vy, ax - cx, ay - cy, error)
-    return bool(s) and s == _cross_sign(vx, vy, bx - cx, by - cy, error)
+    s = cross_sign(vx, vy, ax - cx, ay - cy, error)
+    return bool(s) and s == cross_sign(vx, vy, bx - cx, by - cy, error)
 
 
-def _cross_sign(ux: float, uy: float, vx: float, vy: float, error: float) -> int:
+def cross_sign(ux: float, uy: float, vx: float, vy: float, error: float) -> int:
     """Return the sign of u x v, rounded differences of coordinates; 0 if it is not certain."""
     p, q = ux * vy, uy * vx
     bound = K * (abs(p) + abs(q)) + TINY

@@ -12,7 +12,7 @@ import math
 import operator
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, Protocol, TypeAlias
@@ -21,6 +21,7 @@ import gmpy2
 
 from exactpt.brief import in_brief
 from exactpt.errors import InputError
+from exactpt.kernel.rounding import FAR
 
 if TYPE_CHECKING:
     ZZ = int
@@ -255,6 +256,20 @@ def nearest_float(value: QQ | float) -> float:
         return float(value)
     except OverflowError:
         return math.inf if value > 0 else -math.inf
+
+
+def relative_doubles(values: Sequence[QQ]) -> tuple[list[float], QQ]:
+    """Return the doubles nearest to the values less an origin, and the origin.
+
+    That is the first value where all are close together but far from 0 (`FAR`), so that rounding
+    keeps them apart; else 0.
+    """
+    near = [nearest_float(value) for value in values]
+    least, most = min(near), max(near)
+    if max(-least, most) <= FAR * (most - least):  # false also if both are infinite
+        return near, QQ(0)
+    origin = values[0]
+    return [nearest_float(value - origin) for value in values], origin
 
 
 def finite(x: float) -> float:
