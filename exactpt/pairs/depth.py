@@ -23,9 +23,9 @@ from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
 from exactpt.pairs.distance import squared_from_segment
 
-GRID: Final = 24
+GRID: Final = 12
 """Points of a grid along one side."""
-ROUNDS: Final = 4
+ROUNDS: Final = 5
 """Grids, each on the cells around the best point of the one before."""
 
 Doubles: TypeAlias = "NDArray[np.float64]"

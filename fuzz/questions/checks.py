@@ -36,11 +36,13 @@ from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.all_pairs import touches_at
 from fuzz.questions.chosen import wrong_choice
+from fuzz.questions.curves import wrong_along
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, path_scene, spinning_scene
+from fuzz.questions.stated import stated_case, wrong_at_the_start
 from fuzz.questions.tiny import touching_scene
 from fuzz.questions.touching_rings import touching_pair, wrong_validity
 from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
@@ -272,6 +274,17 @@ def _path(random: Random) -> Checked:
     return Checked(scene, *case_of(scene))
 
 
+def _curves(random: Random) -> Checked:
+    """Motions along curves with jumps, against the given curves."""
+    return Checked(*wrong_along(random))
+
+
+def _stated(random: Random) -> Checked:
+    """first_contact_enclosed at the start, of bodies with stated errors of their places."""
+    case = stated_case(random)
+    return Checked(case.scene, *wrong_at_the_start(case))
+
+
 def _space(random: Random) -> Checked:
     """Compare first contacts in space, one by one and in an array."""
     query = small_query(random)
@@ -381,5 +394,7 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "space": _space,
     "runs": _runs,
     "path": _path,
+    "stated": _stated,
+    "curves": _curves,
 }
 """A function from random choices to a case, by question; what most mistakes show in is first."""

@@ -163,7 +163,8 @@ def test_high_degrees_are_fitted_within_the_place_error():
 
 
 def test_a_spline_of_scipy_with_pieces_of_no_duration():
-    c = [[[1.0, 2.0, 0.1]] * 3, [[0.1, 0.2, 0.3]] * 3]
+    ends = [0.1 + 0.5, 0.2 + 1.0, 0.3 + 0.05]
+    c = [[[1.0, 2.0, 0.1]] * 3, [[0.1, 0.2, 0.3], [0.1, 0.2, 0.3], ends]]
     curve = SimpleNamespace(c=_Rows(c), x=[0.0, 0.0, 0.5, 2.0])
     path = PosePath.of_curve(curve, error="1e-3")
     assert path.times == (0, Fraction(1, 2), 2)
@@ -198,6 +199,86 @@ def test_samples_and_trapezoidal_profiles():
         PosePath.through([0, 2], samples[:2], ramp=1)
     with pytest.raises(InputError, match="x, y and the angle for each time"):
         PosePath.through([0, 2], samples)
+
+
+def test_headings_that_wrap_are_refused_or_unwrapped():
+    """A log between -pi and pi: 3.13, -3.13, -3, then around the other way, twice."""
+    times = [0, 1, 2, 3, 4, 5]
+    headings = [3.13, -3.13, -3, 2, -2, 2]
+    samples = [(0, 0, heading) for heading in headings]
+    with pytest.raises(InputError, match=r"row 1: the angle changes by -6\.26, more than pi"):
+        PosePath.through(times, samples)
+
+    path = PosePath.through(times, samples, unwrap=True, error="1/1000")
+
+    assert path.error == Fraction(1, 1000)
+    assert 0 < path.assumed_angle_error <= Fraction(1, 10**6)
+    for t, full_turns in zip(times, [0, 1, 1, 0, 1, 0], strict=True):
+        with mpmath.workdps(40):
+            true = real(Fraction(headings[t])) + 2 * mpmath.pi * full_turns
+            assert abs(real(path.pose(t)[2]) - true) <= real(path.assumed_angle_error)
+    assert pickle.loads(pickle.dumps(path)) == path
+    scene = Scene([Body("b", [(0, 0)], path)], time=(0, 5))
+    assert Scene.from_json(scene.to_json()).bodies[0].motion == path
+    read_by_the_checker(scene.to_json())
+
+
+def test_headings_by_almost_half_a_turn_are_decided_exactly():
+    """355/113 is more than pi, 103993/33102 is less, by about 10^-7 and 10^-9."""
+    turn = PosePath.through([0, 1], [(0, 0, 0), (0, 0, "103993/33102")], error="1/100")
+    assert turn.pose(1)[2] == Fraction(103993, 33102)
+    with pytest.raises(InputError, match="row 1"):
+        PosePath.through([0, 1], [(0, 0, 0), (0, 0, "355/113")])
+    near_pi = "31415926535897932384626433832795028841971693993751058209749/1" + "0" * 58
+    assert PosePath.through([0, 1], [(0, 0, 0), (0, 0, near_pi)], error="1/100")
+    above = near_pi.replace("9749/", "9750/")
+    with pytest.raises(InputError, match="row 1"):
+        PosePath.through([0, 1], [(0, 0, 0), (0, 0, above)])
+    back = PosePath.through([0, 1], [(0, 0, 0), (0, 0, above)], error="1/100", unwrap=True)
+    assert back.pose(1)[2] < -3
+
+
+def test_unwrapped_headings_that_do_not_wrap_are_as_they_are():
+    samples = [(0, 0, 0), (0, 0, 3), (0, 0, 6), (0, 0, 9)]
+    plain, same = (
+        PosePath.through(range(4), samples, unwrap=u, error="1/100") for u in (False, True)
+    )
+    assert plain == same
+    assert same.assumed_angle_error == 0
+
+
+@pytest.mark.parametrize(
+    "times, samples, message",
+    [
+        ([0, 1], [(0, 0, 0), (0, 0, 90)], "row 1: the angle changes by 90, .*radians"),
+        ([0, 0], [(0, 0, 0)] * 2, "row 1: times increase, got 0 after 0"),
+        ([1, 0], [(0, 0, 0)] * 2, "row 1: times increase, got 0 after 1"),
+        ([0, float("nan")], [(0, 0, 0)] * 2, "row 1: not a finite number"),
+        ([0, 1], [(0, 0, 0), (0, float("inf"), 0)], "row 1: not a finite number: inf"),
+        ([0, 1], ["000", "123"], "row 0: a sample is x, y and the angle"),
+        ([0, 1], [(0, 0, 0), (0, 0)], "row 1: a sample is x, y and the angle"),
+    ],
+)
+def test_a_log_that_is_none_is_refused_with_its_row(times, samples, message):
+    with pytest.raises(InputError, match=message):
+        PosePath.through(times, samples)
+
+
+def test_the_assumed_part_of_a_place_error_is_what_fitting_leaves():
+    still = PosePath([0, 1], [(1, 0, 0)], place_error="1/10")
+    assert still.assumed_place_error == Fraction(1, 10)
+    assert PosePath([0, 1], [([0, 1], 0, 0)]).assumed_place_error == 0
+    fitted = PosePath([0, 1], [([0, 0, 0, 0, 0, 1], 0, 0)], place_error="1/1000")
+    assert 0 <= fitted.assumed_place_error < Fraction(1, 1000)
+    stated = fitted.with_place_error("1/7").assumed_place_error
+    assert stated == fitted.assumed_place_error + Fraction(1, 7)
+
+
+@pytest.mark.parametrize("assumed", ["-1/1000", "1/100", 1])
+def test_an_assumed_error_that_is_no_part_of_the_error_is_refused(assumed):
+    path = PosePath([0, 1], [(0, 0, 0)], error="1/100")
+    with pytest.raises(InputError, match="assumed_angle_error is a part of the error, 1/100"):
+        PosePath.of_pieces(path.pieces, [0, 1], [(0, 0, 0)], "1/100", 0, assumed)
 
 
 @pytest.mark.long
