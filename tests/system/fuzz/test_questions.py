@@ -8,8 +8,12 @@ from click.testing import CliRunner
 from folding import every
 
 from exactpt import AlgebraicNumber, Body, Scene
+from exactpt.collision import enclosed
 from exactpt.kernel.numbers import QQ
+from exactpt.motion import curve
+from exactpt.motion.displacement import Placed, placed_at
 from exactpt.pairs.clearance import Minimum
+from exactpt.pairs.sure import surely_meet
 from fuzz.questions import by_cgal, checks
 from fuzz.questions.command import questions
 from fuzz.questions.renewal import overlap
@@ -25,7 +29,8 @@ def run(*words):
 
 @pytest.mark.parametrize("question", DEFINED)
 def test_no_difference(question, tmp_path):
-    cases = "12" if question in ("spin", "runs", "path", "touching-rings") else "60"
+    slow = ("spin", "runs", "path", "stated", "touching-rings")
+    cases = "12" if question in slow else "60"
     result = run("--question", question, "--cases", cases, "--keep", str(tmp_path / "found"))
 
     assert result.exit_code == 0, result.output
@@ -74,6 +79,42 @@ def test_a_wrong_answer_is_found(question, planted, bug, monkeypatch, tmp_path):
     kept = sorted(tmp_path.glob(f"{question}-0-*.json"))
     assert kept
     assert Scene.load(kept[0]).bodies
+
+
+def forgets(body, t, displacement):
+    """Place a body as if a stated error did not count at the start."""
+    return Placed(placed_at(body, t, displacement).body, QQ(0))
+
+
+def halves(body, t, displacement):
+    placed = placed_at(body, t, displacement)
+    return Placed(placed.body, placed.error / 2)
+
+
+def is_strict(a, b, t, error):
+    return surely_meet(a, b, t, 2 * error)
+
+
+@pytest.mark.parametrize(
+    "planted, bug, cases",
+    [("placed_at", forgets, 3), ("placed_at", halves, 40), ("surely_meet", is_strict, 40)],
+)
+def test_a_wrong_start_of_bodies_with_stated_errors_is_found(planted, bug, cases, monkeypatch):
+    monkeypatch.setattr(enclosed, planted, bug)
+    faults = (checks.checked("stated", 0, number).fault for number in range(cases))
+    assert any(faults)
+
+
+def test_a_curve_whose_jumps_are_forgotten_is_found(monkeypatch):
+    monkeypatch.setattr(curve.ClosedCurve, "place_offset", QQ(0))
+    faults = (checks.checked("curves", 0, number).fault for number in range(20))
+    assert any(fault and "error of the place" in fault for fault in faults)
+
+
+def test_a_curve_that_is_closed_up_over_any_jump_is_found(monkeypatch):
+    monkeypatch.setattr(curve, "MAX_ULPS", 10**30)
+    faults = (checks.checked("curves", 0, number).fault for number in range(20))
+    assert "it jumps and is not refused" in faults
 
 
 @pytest.fixture
