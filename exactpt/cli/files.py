@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Final, Literal
 import click
 
 from exactpt.brief import counted
-from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, output, typed, within_budget
+from exactpt.cli.options import (
+    QUIET,
+    RATIONAL,
+    bounded,
+    keep_input,
+    max_bytes,
+    output,
+    typed,
+    within_budget,
+)
 from exactpt.cli.terminal import name_in_words, print_error, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, shorten, show
@@ -102,6 +111,7 @@ def convert(
     """
     from exactpt.exchange.files import holds_scene, read_shapes, write_shapes
 
+    keep_input(source, target)
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
     idle = typed("time", "holes", "parts", "repair", "skip_invalid")

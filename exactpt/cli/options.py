@@ -196,6 +196,21 @@ def output(
     return click.option(*names, type=kind, help=words, default=default, show_default=True)
 
 
+def keep_input(source: Path, *outputs: Path | None) -> None:
+    """Check that no output is the input, which would be replaced.
+
+    Raises:
+        InputError: if one is, by this name or another one.
+    """
+    for path in outputs:
+        try:
+            is_input = path is not None and path.samefile(source)
+        except (OSError, ValueError):  # one of them does not exist
+            continue
+        if is_input:
+            raise InputError(f"{path}: is the input: choose another name for the output")
+
+
 def typed(*names: str) -> list[str]:
     """Return those of these parameters that were given on the command line, as written."""
     context = click.get_current_context()

@@ -15,6 +15,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    keep_input,
     load,
     naming_at,
     output,
@@ -101,6 +102,7 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
+    keep_input(scene, output)
     gap = None if clearance is None else two_names(clearance, "--clearance")
     if gap is not None and at is not None and output.suffix.lower() != ".html":
         raise InputError("--at: a plot of the clearance is of all times")

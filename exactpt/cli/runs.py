@@ -19,6 +19,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    keep_input,
     load,
     names_in,
     two_names,
@@ -119,6 +120,7 @@ def collide(
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
       exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """
+    keep_input(scene, proof, certificate)
     if every or enclosed:
         from exactpt.cli.intervals import collide_all, collide_enclosed
 
@@ -235,6 +237,7 @@ def simulate(
     import exactpt.simulation.simulation  # noqa: F401 - BLAS ends a process that has no memory
     from exactpt.files import writing
 
+    keep_input(scene, events)
     with writing(events) if events is not None else nullcontext() as log:
 
         def report(event: Event) -> None:

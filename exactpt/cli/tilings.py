@@ -17,6 +17,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    keep_input,
     load,
     naming_at,
     output,
@@ -58,6 +59,7 @@ def tile(
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
+    keep_input(scene, output)
     with within_budget(max_seconds), naming_at():
         given = load(scene)
         snapshot = tile_at(

@@ -24,7 +24,7 @@ from exactpt.pairs.contact import Contact
 from exactpt.pairs.selection import Selection
 from exactpt.proof.apart import Separation
 from exactpt.proof.degrees import refuse_degrees
-from exactpt.proof.emit import beside
+from exactpt.proof.emit import may_write_beside, write_beside
 from exactpt.proof.meeting import Meetings
 from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
@@ -165,6 +165,7 @@ class CertifiedSearch:
         assert question.certificate is not None  # noqa: S101
         self._search, self._path = search, question.certificate
         self._file = question.scene_file or scene_bytes(question.given or scene)
+        may_write_beside(self._path, self._file)  # refused before the search, not after it
         selection = Selection(scene, question.between, question.ignoring)
         self._made = _Certificate(scene, self._file, selection, Fraction(0))
 
@@ -179,7 +180,7 @@ class CertifiedSearch:
         except BudgetExceeded as spent:
             spent.answer = (found,)
             raise
-        write_atomically(beside(self._path), self._file)
+        write_beside(self._path, self._file)
         write_atomically(self._path, text)
         return found
 

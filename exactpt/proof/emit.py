@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.collision.driver import CHANGES, Observer
 from exactpt.collision.tiling_search import TilingSearch
 from exactpt.errors import InputError
-from exactpt.files import write_atomically, writing
+from exactpt.files import open_own, write_atomically, writing
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import searching
 from exactpt.proof.degrees import refuse_degrees
@@ -26,10 +28,52 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
+HEADER: Final = 1000
+"""Number of bytes of a proof or certificate in which the digest of its scene is."""
+
 
 def beside(path: Path) -> Path:
     """Return the path of the scene of a proof or certificate."""
     return path.with_name(f"{path.name}.scene.json")
+
+
+def may_write_beside(path: Path, scene: bytes) -> bool:
+    """Return True if the scene of a proof or certificate is to be written beside it.
+
+    False if it is there already.
+
+    Args:
+        path: the path of the proof or certificate.
+        scene: the bytes of the scene's file.
+
+    Raises:
+        InputError: if another file is there, which is not the scene of an earlier proof at this
+            path: nobody has named it to be replaced.
+    """
+    place = beside(path)
+    if not os.path.lexists(place):
+        return True
+    with open_own(place, writable=False) as file:
+        known = file.read()
+    if known == scene:
+        return False
+    digest = hashlib.sha256(known).hexdigest().encode()
+    try:
+        with open_own(path, writable=False) as file:
+            is_own = digest in file.read(HEADER)
+    except InputError:
+        is_own = False
+    if not is_own:
+        raise InputError(
+            f"{place}: not the scene of {path.name}: move it away, or choose another name"
+        )
+    return True
+
+
+def write_beside(path: Path, scene: bytes) -> None:
+    """Write the scene of a proof or certificate beside it, see `may_write_beside`."""
+    if may_write_beside(path, scene):
+        write_atomically(beside(path), scene)
 
 
 @final
@@ -82,7 +126,7 @@ class ProofRun(TilingSearch):
         if path is None:
             raise InputError("path: a proof needs one")
         if self._beside:
-            write_atomically(beside(path), self._file)
+            write_beside(path, self._file)
         with searching(None, self.contact_free_until), writing(path) as write:
             for line in self.lines():
                 write(f"{line}\n")

@@ -8,6 +8,7 @@ begins to deform.
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterable, Sequence
 from itertools import chain
 from pathlib import Path
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Final, final
 
 from exactpt.collision.driver import CHANGES, Observer
 from exactpt.errors import InputError
-from exactpt.files import write_atomically, writing
+from exactpt.files import create, open_own, writing
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import Part, ProofRun
 from exactpt.proof.lines import Lines, header
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 CHAIN: Final = "exactpt-chain 1"
 """The first line of ``run.chain``."""
+KINDS: Final = ("*.proof", "*.scene.json", "run.chain")
+"""The names of the files of such a folder."""
 
 
 @final
@@ -53,7 +56,7 @@ class ProofFolder(Observer):
         self._folder = Path(folder)
         try:
             self._folder.mkdir(exist_ok=True)
-            is_used = any(self._folder.glob("*.proof")) or (self._folder / "run.chain").exists()
+            is_used = any(any(self._folder.glob(kind)) for kind in KINDS)
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             raise InputError(f"{folder}: cannot be written: {reason}") from None
@@ -126,9 +129,10 @@ class ProofFolder(Observer):
     def _write(self, scene: bytes, lines: Iterable[str]) -> None:
         self._written += 1
         path = self._folder / f"{self._written}.proof"
-        write_atomically(path.with_suffix(".scene.json"), scene)
+        with writing(path.with_suffix(".scene.json"), new=True) as write:
+            write(scene)
         digest, span = hashlib.sha256(), ""
-        with writing(path) as write:
+        with writing(path, new=True) as write:
             for line in lines:
                 write(f"{line}\n")
                 digest.update(f"{line}\n".encode())
@@ -139,9 +143,14 @@ class ProofFolder(Observer):
         """Add the line of a part to ``run.chain``, with the hash of the line before."""
         before = hashlib.sha256(self._before.encode()).hexdigest()
         line = f"{self._written} {part} {before}"
-        try:
-            with (self._folder / "run.chain").open("a", encoding="utf-8", newline="") as file:
-                file.write(f"{line}\n" if self._written > 1 else f"{CHAIN}\n{line}\n")
-        except OSError as error:
-            raise InputError(f"{self._folder}: cannot be written: {error.strerror}") from None
+        path = self._folder / "run.chain"
+        if self._written == 1:
+            create(path, f"{CHAIN}\n{line}\n".encode()).close()
+        else:
+            try:
+                with open_own(path, writable=True) as file:
+                    file.seek(0, os.SEEK_END)
+                    file.write(f"{line}\n".encode())
+            except OSError as error:
+                raise InputError(f"{self._folder}: cannot be written: {error.strerror}") from None
         self._before = line

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from exactpt.brief import record_in_brief
 from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically
-from exactpt.proof.emit import ProofRun, beside
+from exactpt.proof.emit import ProofRun, write_beside
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import scene_bytes
 
@@ -59,9 +59,10 @@ class Proof(NamedTuple):
         """Write the proof, and its scene beside it, with ``.scene.json`` appended to its name.
 
         Raises:
-            InputError: if a file cannot be written.
+            InputError: if a file cannot be written, or the one beside is not the scene of an
+                earlier proof at this path.
         """
-        write_atomically(beside(Path(path)), self.scene)
+        write_beside(Path(path), self.scene)
         write_atomically(Path(path), self.text)
 
 

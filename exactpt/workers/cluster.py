@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
 from exactpt.workers.work import ENDS, Item, Result, Step, Work
@@ -12,8 +14,10 @@ from exactpt.workers.work import ENDS, Item, Result, Step, Work
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-AHEAD = 4
+AHEAD: Final = 4
 """Number of items at a time for each thread of the cluster."""
+PATIENCE: Final = 5.0
+"""Seconds in which a scheduler must have answered."""
 
 
 def results_on(
@@ -55,12 +59,46 @@ def results_on(
 
 
 def _client(scheduler: str) -> Client:
+    """Return a client of a scheduler.
+
+    Raises:
+        InputError: if none answers at this address within `PATIENCE`.
+    """
     from distributed import Client
 
+    # In a thread of its own: the caller's may have an event loop, as in a notebook.
+    with ThreadPoolExecutor(1) as pool:
+        fault = pool.submit(lambda: asyncio.run(_fault_of(scheduler))).result()
+    if fault is None:
+        try:
+            return Client(scheduler, timeout=PATIENCE)
+        except Exception as error:  # of the network, or of the answer of another program
+            fault = _in_words(error)
+    raise InputError(f"no scheduler at {scheduler}: {fault}; check the address")
+
+
+async def _fault_of(scheduler: str) -> str | None:
+    """Return the reason why no scheduler is at an address; None if one answers.
+
+    A client waits much longer for a program that accepts the connection and does not answer.
+    """
+    from distributed.comm import connect
+    from distributed.security import Security
+
     try:
-        return Client(scheduler)
-    except (OSError, ValueError) as error:
-        raise InputError(f"no scheduler at {scheduler}: {error}") from None
+        settings = Security().get_connection_args("client")
+        comm = await asyncio.wait_for(connect(scheduler, PATIENCE, **settings), PATIENCE)
+        await comm.close()
+    except Exception as error:  # of the network, or of the answer of another program
+        return _in_words(error)
+    return None
+
+
+def _in_words(error: Exception) -> str:
+    """Return the reason of an error in one short line."""
+    if isinstance(error, TimeoutError) or "Timed out" in str(error):
+        return f"no answer within {PATIENCE:g} s"
+    return " ".join(str(error).split())[:200] or type(error).__name__
 
 
 def _silent(step: Step) -> None:

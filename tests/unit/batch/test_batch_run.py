@@ -4,6 +4,7 @@ import json
 import multiprocessing
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -643,4 +644,18 @@ def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     pytest.importorskip("distributed")
     with pytest.raises(InputError, match="no scheduler at"):
         run(scenes, tmp_path / "answers.jsonl", scheduler="nonsense://nowhere")
+    assert not list(tmp_path.glob("answers.jsonl*"))
+
+
+@pytest.mark.long("6")
+@pytest.mark.filterwarnings("default")
+def test_bug_a_silent_scheduler_is_named_within_five_seconds(scenes, tmp_path):
+    """It accepts the connection and does not answer: the client waited for 30 s and more."""
+    pytest.importorskip("distributed")
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        began = time.monotonic()
+        with pytest.raises(InputError, match=f"^no scheduler at {address}: no answer within 5 s"):
+            run(scenes, tmp_path / "answers.jsonl", scheduler=address)
+        assert time.monotonic() - began < 10
     assert not list(tmp_path.glob("answers.jsonl*"))
