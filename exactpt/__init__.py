@@ -13,6 +13,7 @@ from os.path import isfile
 from typing import TYPE_CHECKING, Final
 
 from exactpt.extensions import register
+from exactpt.interpreters import refuse_subinterpreters
 
 if TYPE_CHECKING:
     __version__: str
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
     from exactpt.simulation.responses import Bounce, stop
     from exactpt.simulation.simulation import Simulation
 
+refuse_subinterpreters()
 if isfile(f"{__path__[0]}/compiled.txt"):  # a checkout after `make compiled`
     import_module("exactpt.compiled").compare()
 

@@ -71,7 +71,7 @@ def test_bodies_with_radii_are_values():
         assert twin == round_one
         assert twin.radius == Fraction(1, 3)
     assert round_one.with_motion(Translation()).radius == Fraction(1, 3)
-    assert repr(round_one) == "<Body 'b': point of 1 vertices, radius 1/3>"
+    assert repr(round_one) == "<Body 'b': point of 1 vertex, radius 1/3>"
     assert Scene([round_one]) != Scene([Body("b", [(0, 0)], Translation([0, 1]))])
 
 

@@ -118,7 +118,7 @@ def test_counts_and_repr():
     assert scene.vertex_count == 3
     assert repr(scene) == "<Scene: 2 bodies, 3 vertices, t in [1/2, 3]>"
     assert [repr(body) for body in scene.bodies] == [
-        "<Body 'a': point of 1 vertices>",
+        "<Body 'a': point of 1 vertex>",
         "<Body 'b': segment of 2 vertices>",
     ]
 
