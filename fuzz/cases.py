@@ -29,7 +29,15 @@ QUESTION: Final = "questions/"
 """What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
 
 USUAL: Final = 8
-SEVERAL: Final = {"runs": 1, "spin": 1, "path": 1, "stated": 2, "flips": 4, "small-scope": 60}
+SEVERAL: Final = {
+    "runs": 1,
+    "spin": 1,
+    "path": 1,
+    "stated": 2,
+    "touching-rings": 2,
+    "flips": 4,
+    "small-scope": 60,
+}
 """Number of questions in a case, for about the same time each; `USUAL` of all others."""
 
 

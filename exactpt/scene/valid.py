@@ -70,8 +70,9 @@ def _fault_shown(body: Body, points: Sequence[Point], fault: EdgeFault) -> str:
     if kind is FaultKind.CROSSING:
         return f"two rings cross: {meet}"
     of_parts = [k for k, rings in enumerate(body.parts) for ring in rings if {i, j} & {*ring}]
-    remedy = "; exactpt.union joins such parts" if len(set(of_parts)) > 1 else ""
-    return f"two rings have a common piece: {meet}{remedy}"
+    joins = len(set(of_parts)) > 1
+    remedy = "exactpt.union joins such parts" if joins else "make one ring of the two"
+    return f"two rings have a common piece: {meet}; {remedy}"
 
 
 def _check_areas(body: Body, points: Sequence[Point]) -> None:
