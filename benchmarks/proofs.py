@@ -31,9 +31,9 @@ from exactpt import (
     InputError,
     Proof,
     Scene,
-    check_apart,
     first_contact,
     proof_check,
+    proof_scene,
     prove,
 )
 from exactpt.cgal import check_proof, find_program
@@ -174,7 +174,7 @@ def _certified(scene: Scene) -> tuple[Proof, float, float, float]:
     """Return a certificate, and the times of the search, of writing and of checking it."""
     contact, search = timed(lambda: first_contact(scene, method="pairs"))
     proof, write = timed(lambda: certificate_of(scene, contact))
-    check_apart.rational.cache_clear()  # which knows the numbers of the run before
+    proof_scene.rational.cache_clear()  # which knows the numbers of the run before
     return proof, search, write, timed(proof.check)[1]
 
 

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import exactpt
 from exactpt import Body, Translation
-from exactpt.proof_check import Face, PlanarMap, Scene
+from exactpt.proof_check import Face, PlanarMap
+from exactpt.proof_scene import Scene
 from exactpt.render.palette import LIGHT, body_colour
 
 SCENE = exactpt.Scene(

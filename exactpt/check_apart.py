@@ -1,10 +1,11 @@
 """Checks a certificate that no two bodies of a scene share a point in [a, L], and that two do by H.
 
-    python3 -I check_apart.py SCENE CERTIFICATE [--until T] [--partial] [--expect ANSWER] [--work N]
+    python3 -I FILE SCENE CERTIFICATE [--until T] [--partial] [--expect ANSWER] [--work N]
 
 It imports the standard library alone and uses no floats. docs/proofs.md, Certificates, has the
-statement, the file format and the whole argument. The reader of scenes is copied from
-proof_check.py, without its comments. An item is an edge of a body, or its only vertex.
+statement, the file format and the whole argument. Numbers and the scene are read by
+`exactpt.proof_scene`; `exactpt check --write-apart FILE` joins both into one file. An item is an
+edge of a body, or its only vertex.
 
 Exit code: 0 accepted, 1 rejected, or not the statement that was wanted, 2 no certificate of this
 scene, 4 not decided: the budget of work is used up.
@@ -17,358 +18,56 @@ if __name__ == "__main__" and not sys.flags.isolated:
     sys.exit(2)
 
 import hashlib
-import json
 import re
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
-from decimal import MAX_EMAX, MAX_PREC, MIN_EMIN, Context, Decimal
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import lru_cache
-from itertools import accumulate, chain, dropwhile, pairwise, zip_longest
-from math import comb, gcd, isqrt, lcm
-from operator import mul, not_
+from itertools import chain, pairwise
+from math import comb, isqrt, lcm
 from pathlib import Path
-from typing import Any, TextIO, TypeVar
+from typing import Any
 
-# fmt: off
-# ---- Copied from proof_check.py, by .ci/copy_reader.py.
-Point = tuple[Fraction, Fraction]; Dart = tuple[int, int]; Json = Any
-class NoProofError(Exception): pass
-class Rejected(Exception): pass
-class Exhausted(Exception): pass
-class Work:
-    usual = 5 * 10 ** 8
-    def __init__(self, left: int) -> None: self.left = left
-WORK = ContextVar[Work | None]('WORK', default=None)
-def spend(products: int) -> None:
-    work = WORK.get()
-    if work is not None:
-        work.left -= products
-        if work.left < 0: raise Exhausted('not decided: the budget of work is used up (see --work)')
-@contextmanager
-def budget(work: int | None, files: int=0) -> Iterator[Work]:
-    of_check = Work(Work.usual + 2000 * files if work is None else work); token = WORK.set(of_check)
-    try: yield of_check
-    finally: WORK.reset(token)
-def require(condition: object, why: str) -> None:
-    if not condition: raise Rejected(why)
-PIECE = 640; EXACT = Context(prec=MAX_PREC, Emin=MIN_EMIN, Emax=MAX_EMAX)
-def integer(text: str) -> int:
-    if len(text) <= PIECE: return int(text)
-    if text[0] in '+-': return integer(text[1:]) * (-1 if text[0] == '-' else 1)
-    ends = range(len(text), 0, -PIECE); pieces = [int(text[max(0, end - PIECE):end]) for end in ends]
-    power = 10 ** PIECE
-    while len(pieces) > 1:
-        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=0)
-        pieces = [low + high * power for low, high in above]; power *= power if len(pieces) > 1 else 1
-    return pieces[0]
-def digits(n: int) -> str:
-    if n.bit_length() <= 2000: return str(n)
-    size, raw = (128, abs(n).to_bytes(n.bit_length() // 8 + 1, 'little'))
-    parts = [raw[start:start + size] for start in range(0, len(raw), size)]
-    pieces = [Decimal(int.from_bytes(part, 'little')) for part in parts]; power = Decimal(1 << 8 * size)
-    while len(pieces) > 1:
-        above = zip_longest(pieces[::2], pieces[1::2], fillvalue=Decimal(0))
-        pieces = [EXACT.fma(high, power, low) for low, high in above]
-        power = EXACT.multiply(power, power) if len(pieces) > 1 else power
-    return '-' * (n < 0) + str(pieces[0])
-def written(q: Fraction | int) -> str:
-    below = q.denominator; return digits(q.numerator) if below == 1 else f'{digits(q.numerator)}/{digits(below)}'
-def words(n: int) -> int: return (n.numerator.bit_length() + n.denominator.bit_length() >> 6) + 1
-def most_words(f: Iterable[Any]) -> int: return max(map(words, f), default=1)
-def longest(integers: Iterable[int]) -> int: return words(max(map(abs, integers)))
-class Poly(tuple[Any, ...]):
-    __slots__ = ()
-    def __new__(cls, coefficients: Iterable[Any]=()) -> 'Poly':
-        f = tuple.__new__(cls, coefficients)
-        if f and (not f[-1]): f = tuple.__new__(cls, [*dropwhile(not_, f[::-1])][::-1])
-        return f
-    def __add__(self, g: 'Poly') -> 'Poly':
-        both = self and g; return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)]) if both else self or g
-    def __sub__(self, g: 'Poly') -> 'Poly': return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
-    def __mul__(self, g: 'Poly') -> 'Poly':
-        if len(self) < 2 or not g: return g if self == (1,) or not g else Poly([a * b for a in self for b in g])
-        if len(self) * len(g) > 8: spend(len(self) * len(g) * most_words(self) * most_words(g))
-        product = [0] * (len(self) + len(g) - 1)
-        for i, a in enumerate(self):
-            for j, b in enumerate(g): product[i + j] += a * b
-        return Poly(product)
-Track = tuple[Poly, Poly, Poly]; Whole = tuple[int, int, int]; Rows = list[Whole]; Entry = TypeVar('Entry', int, Poly)
-Triple = tuple[Entry, Entry, Entry]; ONE, ZERO = (Poly([Fraction(1)]), Poly())
-Poses = tuple[Point, list[Fraction], list[list[Poly]]]
-def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
-    return (b[0] * a[2] - a[0] * b[2], b[1] * a[2] - a[1] * b[2])
-def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
-    f = a[0] * (b[1] * c[2] - c[1] * b[2]) + b[0] * (c[1] * a[2] - a[1] * c[2])
-    return f + c[0] * (a[1] * b[2] - b[1] * a[2])
-def dot_of(a: Triple[Entry], v: Triple[Entry], b: Triple[Entry]) -> Entry:
-    (px, py), (qx, qy) = (vector_of(v, a), vector_of(v, b)); return px * qx + py * qy
-def values(polynomials: Sequence[Poly], t: Fraction) -> list[int]:
-    n, d, k = (t.numerator, t.denominator, max(map(len, polynomials)))
-    if k < 2: return [*map(sum, polynomials)]
-    if (n | d) >> 64:
-        size = words(d) * (k * words(n) + longest(chain(*polynomials))); spend(len(polynomials) * k ** 2 * size)
-    powers = [n ** i * d ** (k - 1 - i) for i in range(k if n else 1)]
-    found = [sum(map(mul, f, powers)) for f in polynomials]
-    spend(k * (len(found) + (sum(map(int.bit_length, found)) >> 6))); return found
-def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
-    p, q, r, s = (turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b))
-    if (p > 0 > q or p < 0 < q) and (r > 0 > s or r < 0 < s): return True
-    ends = ((p, c, a, b), (q, d, a, b), (r, a, c, d), (s, b, c, d))
-    return any((f == 0 and dot_of(x, v, y) <= 0 for f, v, x, y in ends))
-def are_same(points: Sequence[Whole], others: Sequence[Whole]) -> bool:
-    return all((vector_of(p, q) == (0, 0) for p, q in zip(points, others, strict=True)))
-def is_simple(points: Sequence[Whole], edges: Iterable[Dart], first: int) -> bool:
-    spans, near = ([], [((x << 256) // w, (y << 256) // w) for x, y, w in points])
-    product = longest(chain(*points)) ** 2
-    for u, v in edges:
-        spend(4 * product)
-        if vector_of(points[u - first], points[v - first]) == (0, 0): return False
-        (x, y), (z, w) = (near[u - first], near[v - first])
-        spans.append((min(x, z), max(x, z), min(y, w), max(y, w), u - first, v - first))
-    spans.sort()
-    for k, (_, right, bottom, top, a, b) in enumerate(spans):
-        for j in range(k + 1, len(spans)):
-            left, _, low, high, c, d = spans[j]
-            if left > right: break
-            spend(200)
-            if low > top or high < bottom: continue
-            spend(2000 + 60 * product)
-            if b == c or d == a:
-                p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
-                if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0: return False
-            elif meet(points[a], points[b], points[c], points[d]): return False
-    return True
-def surrounds(ring: Sequence[Whole], p: Whole) -> bool:
-    spend(len(ring) * (300 + 15 * longest((*p, *ring[0])) ** 2))
-    above, odd = ([q[1] * p[2] > p[1] * q[2] for q in ring], False)
-    for i, a in enumerate(ring):
-        if above[i] != above[i - 1]: odd ^= (turn(ring[i - 1], a, p) if above[i] else turn(a, ring[i - 1], p)) > 0
-    return odd
-NUMBER = re.compile('([+-]?)(\\d*+)(?:/(\\d++)|\\.?(\\d*+)(?:[eE]([+-]?\\d{1,18}))?)', re.ASCII); MAX_BITS = 33220
-MAX_DIGITS = 10000; MAX_DEGREE = 64
-BODY_KEYS = ['motion', 'closed', 'holes', 'radius', 'properties', 'vertices', 'keyframes', 'parts']
-MOTION_KEYS = {'': ([], ['x', 'y']), 'affine': (['matrix'], ['x', 'y']), 'rigid': (['half_turn'], ['x', 'y', 'pivot', 'orientation'])}
-class Bare(str): __slots__ = ()
-def need(condition: object, what: str, data: Json='') -> None:
-    if not condition: raise NoProofError(f'the scene: {what} {data!r:.60}')
-def number(data: Json) -> Fraction:
-    need(isinstance(data, str) and len(data) <= 3 * MAX_DIGITS, 'not a number:', data); return rational(data)
-@lru_cache(1000)
-def rational(data: str) -> Fraction:
-    if data.removeprefix('-').isdecimal() and data.isascii() and (len(data) <= MAX_DIGITS):
-        return Fraction(integer(data))
-    match = NUMBER.fullmatch(data); minus, units, under, decimals, exponent = match.groups('') if match else [''] * 5
-    need(units or decimals, 'not a number:', data); need(not under or under.strip('0'), 'a denominator is zero:', data)
-    power, n = (int(exponent or 0), integer(minus + units + decimals))
-    need(abs(power) <= 100000, 'an exponent beyond 100,000:', data); power = power - len(decimals) if n else 0
-    is_whole = power >= 0 and (not under)
-    q = Fraction(n * 10 ** power) if is_whole else Fraction(n, integer(under) if under else 10 ** (-power))
-    bits = max(q.numerator.bit_length(), q.denominator.bit_length())
-    need(bits <= MAX_BITS, 'more than 10,000 digits:', data); return q
-def keys(data: Json, required: Sequence[str]=(), optional: Sequence[str]=()) -> Json:
-    known = isinstance(data, dict) and {*required} <= data.keys() <= {*required, *optional}
-    need(known, 'not an object, or with other keys:', data); return data
-def entries(data: Json, length: int | None=None) -> Json:
-    need(isinstance(data, list) and length in (None, len(data)), 'not a list as needed:', data); return data
-def check_json(data: Json, levels: int) -> None:
-    is_text = isinstance(data, str) and (data.isascii() or not re.search('[\ud800-\udfff]', data))
-    need(is_text or not isinstance(data, (str, float)), 'a number or text that is none:', data)
-    if isinstance(data, (dict, list)):
-        need(levels, 'nested too deeply:', None)
-        for value in [*data, *data.values()] if isinstance(data, dict) else data: check_json(value, levels - 1)
-def polynomial(data: Json) -> Poly: return Poly([number(c) for c in entries(data)])
-def degree(*polynomials: Poly) -> int: return max(1, *map(len, polynomials)) - 1
-class Motion:
-    def __init__(self, data: Json, of_shape: int) -> None:
-        kind = next(iter({'rigid', 'affine'} & data.keys()), '') if isinstance(data, dict) else ''
-        given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
-        x, y = (polynomial(given.get('x', [])), polynomial(given.get('y', [])))
-        m, high = ([ONE, ZERO, ZERO, ONE], max(of_shape, degree(x, y)))
-        if kind == 'affine':
-            m = [polynomial(p) for row in entries(given['matrix'], 2) for p in entries(row, 2)]
-            high = max(of_shape + degree(*m), degree(x, y))
-        h = polynomial(given['half_turn']) if kind == 'rigid' else ZERO
-        need(high + 2 * degree(h) <= MAX_DEGREE, f'a degree above {MAX_DEGREE}'); form = (*m, x, y, ONE)
-        if kind == 'rigid':
-            c, s = point(given.get('orientation', ['1', '0']))
-            need(c * c + s * s == 1, 'an orientation that is no unit vector:', data)
-            p, q = (Poly([k]) for k in point(given.get('pivot', ['0', '0'])))
-            w, cosine, sine = (ONE + h * h, ONE - h * h, h + h)
-            a, b = (cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s]))
-            e, f = (w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q); form = (a, ZERO - b, b, a, e, f, w)
-        e, f, w = cleared(x, y); self.form = cleared(*form)[:7] if kind else (w, ZERO, ZERO, w, e, f, w)
-        self.columns = [*zip_longest(*self.form, fillvalue=0)]
-        self.cost = sum(map(len, self.form)) * (300 + 2 * longest(chain(*self.form)) ** 2)
-    def track(self, rows: Rows) -> Track:
-        spend(self.cost * 2 * len(rows) * (longest(chain(*rows)) if len(rows) > 1 else 1))
-        xs, ys, ws = ([0] * (len(self.columns) + len(rows) - 1) for _ in 'xyw')
-        for i, (p, q, r) in enumerate(rows):
-            for j, (a, b, c, d, e, f, w) in enumerate(self.columns, i):
-                xs[j] += a * p + b * q + e * r; ys[j] += c * p + d * q + f * r; ws[j] += w * r
-        m = gcd(*xs, *ys, *ws); x, y, w = [Poly([k // m for k in f]) for f in (xs, ys, ws)]; return (x, y, w)
-def cleared(*given: Poly) -> tuple[Poly, ...]:
-    ratios = [[q.as_integer_ratio() for q in f] for f in given]; m = lcm(*[d for f in ratios for _, d in f])
-    spend(words(m) ** 2 * sum(map(len, given)))
-    return (*[Poly([n * (m // d) for n, d in f]) for f in ratios], Poly([m]))
-class Body:
-    def __init__(self, data: Json, first: int, start: Fraction) -> None:
-        body = keys(data, ['name'], BODY_KEYS)
-        shapes = ('vertices' in body) + ('keyframes' in body) + ('parts' in body)
-        need(shapes == 1, 'vertices or keyframes or parts:', data)
-        need('holes' not in body or 'vertices' in body, 'holes without vertices:', data)
-        self.name, closed = (body['name'], body.get('closed', True))
-        need(type(self.name) is str and self.name, 'a name:', self.name)
-        need(isinstance(closed, bool), 'closed:', closed); self.radius = number(body.get('radius', '0'))
-        need(self.radius.numerator >= 0, 'a radius:', body.get('radius'))
-        need(isinstance(body.get('properties', {}), dict), 'properties:', self.name)
-        check_json([self.name, body.get('properties')], 30)
-        parts = [keys(p, ['vertices'], ['holes']) for p in entries(body.get('parts', []))]
-        need(parts or 'parts' not in body, 'no parts:', data)
-        of = [(p.get('vertices', []), *entries(p.get('holes', []))) for p in parts or [body]]
-        rings = [[*map(entries, part)] for part in of]; flat = [ring for part in rings for ring in part]
-        several = 'parts' in body or len(flat) > 1
-        need(not several or (closed and min(map(len, flat)) > 2), 'rings:', data)
-        self.frames = keyframes(body['keyframes']) if 'keyframes' in body else []
-        self.shape = [vertex(data) for ring in flat for data in ring]
-        self.first, self.size = (first, len(self.frames[0][1] if self.frames else self.shape))
-        need(self.size, 'no vertices:', self.name); self.read_motion(body.get('motion', {}))
-        self.vertices, self.closed = (range(first, first + self.size), closed and self.size > 2)
-        self.breaks = sorted({*self.ends, *dict(self.frames)}); self.parts: list[list[range]] = []
-        for part in rings if several else [[self.vertices]]:
-            bounds = accumulate(map(len, part), initial=first)
-            self.parts.append([range(i, j) for i, j in pairwise(bounds)]); first = self.parts[-1][-1].stop
-        self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
-        self.edges = [e for r, _ in self.rings for e in pairwise([*r, *r[:self.closed]])]
-        self.tracks, self.at_start = (dict[tuple[int, int], Track](), self.places(start))
-        self.check_simple(self.at_start)
-    def read_motion(self, data: Json) -> None:
-        of_shape = 1 if self.frames else max(map(len, self.shape)) - 1; self.ends: list[Fraction] = []
-        if not isinstance(data, dict) or 'pieces' not in data: self.motions = [Motion(data, of_shape)]; return
-        given = keys(data, ['pieces'], ['spin', 'path', 'spline'])
-        need(len(given) < 3, 'both a spin and a path (or a spline):', data)
-        rows = [keys(p, ['motion'], ['until']) for p in entries(given['pieces'])]
-        whole = rows and 'until' not in rows[-1] and all(('until' in p for p in rows[:-1]))
-        need(whole, '"until" belongs to all pieces but the last:', data)
-        self.ends = [number(p['until']) for p in rows[:-1]]
-        need(all((s < t for s, t in pairwise(self.ends))), 'pieces not in order:', data)
-        self.motions = [Motion(p['motion'], of_shape) for p in rows]
-        for t, (before, after) in zip(self.ends, pairwise(self.motions), strict=True):
-            u, v = (values(before.form, t), values(after.form, t))
-            if [c * v[6] for c in u] != [c * u[6] for c in v]:
-                same = are_same(self.places(t, before), self.places(t, after))
-                need(same, f'{self.name!a:.200} jumps at t = {written(t):.200}')
-        self.spin = spin_of(given['spin']) if 'spin' in given else None
-        self.path = path_of(given['path']) if 'path' in given else None
-        self.spline = spline_of(given['spline']) if 'spline' in given else None
-    def rows(self, i: int, t: Fraction) -> Rows:
-        if not self.frames: return self.shape[i]
-        (s, p), (e, q) = self.around(t)
-        slopes = [(b - a) / (e - s) if e > s else 0 for a, b in zip(p[i], q[i], strict=True)]
-        xy = (Poly([a - v * s, v]) for a, v in zip(p[i], slopes, strict=True))
-        return [*zip_longest(*cleared(*xy), fillvalue=0)]
-    def around(self, t: Fraction) -> list[tuple[Fraction, list[Point]]]:
-        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
-        return [self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]]
-    def places(self, t: Fraction, motion: Motion | None=None) -> list[Whole]:
-        motion = motion or self.motions[bisect_right(self.ends, t)]
-        a, b, c, d, e, f, w = form = values(motion.form, t); spend(self.size * (1000 + 30 * longest(form)))
-        shape = [self.rows(i, t) for i in range(self.size)] if self.frames else self.shape
-        at = [k[0] if len(k) < 2 else values([*map(Poly, zip(*k, strict=True))], t) for k in shape]
-        return [(a * x + b * y + e * z, c * x + d * y + f * z, w * z) for x, y, z in at]
-    def check_simple(self, places: Sequence[Whole]) -> None:
-        need(is_simple(places, self.edges, self.first), f'{self.name!a:.200} is not simple at the start')
-        if len(self.rings) == 1: return
-        outlines = {ring: [places[v - self.first] for v in ring] for ring, _ in self.rings}
-        def is_in(ring: range, other: range) -> bool: return surrounds(outlines[other], outlines[ring][0])
-        for one, *holes in self.parts:
-            wrong = any((not is_in(k, one) for k in holes))
-            wrong |= any((is_in(k, m) for k in holes for m in holes if k != m))
-            for other, *others in self.parts:
-                within = other != one and is_in(one, other)
-                wrong |= within and (not any((is_in(one, hole) for hole in others)))
-            need(not wrong, f'{self.name!a:.200}: a hole or part is where none can be')
-    def track(self, i: int, after: Fraction) -> Track:
-        key = (i, bisect_right(self.breaks, after))
-        if key not in self.tracks:
-            motion = self.motions[bisect_right(self.ends, after)]; self.tracks[key] = motion.track(self.rows(i, after))
-        return self.tracks[key]
-def point(data: Json) -> Point: x, y = map(number, entries(data, 2)); return (x, y)
-def vertex(data: Json) -> Rows:
-    if isinstance(data, dict):
-        xy = (polynomial(keys(data, optional=['x', 'y']).get(k, [])) for k in 'xy')
-        return [*zip_longest(*cleared(*xy), fillvalue=0)]
-    (p, d), (q, e) = (x.as_integer_ratio() for x in point(data)); m = lcm(d, e)
-    return [(p * (m // d), q * (m // e), m)]
-def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
-    frames = [keys(f, ['t', 'vertices']) for f in entries(data)]
-    path = [(number(f['t']), [*map(point, entries(f['vertices']))]) for f in frames]
-    need(len({len(points) for _, points in path}) == 1, 'keyframes:', data)
-    need(all((s < t for (s, _), (t, _) in pairwise(path))), 'keyframes not in order:', data); return path
-def spin_of(data: Json) -> Point:
-    omega, error = (number(keys(data, ['omega', 'error'])[k]) for k in ('omega', 'error'))
-    need(error > 0, "a spin's error:", data); return (omega, error)
-def spline_of(data: Json) -> Fraction:
-    error = number(keys(data, ['error'])['error']); need(error >= 0, "a spline's error:", data); return error
-def path_of(data: Json) -> Poses:
-    path = keys(data, ['error', 'place_error', 'times', 'poses'], ['assumed_angle_error'])
-    assumed = number(path.get('assumed_angle_error', Bare('0')))
-    error, off = (number(path['error']) - assumed, number(path['place_error']))
-    need(assumed >= 0, 'an assumed error of a path:', data); times = [number(t) for t in entries(path['times'])]
-    rows = [keys(row, ['x', 'y', 'angle']) for row in entries(path['poses'])]
-    poses = [[polynomial(row[k]) for k in ('x', 'y', 'angle')] for row in rows]
-    right = error > 0 and off >= 0 and (len(times) == len(poses) + 1 > 1)
-    need(right and all((s < t for s, t in pairwise(times))), 'not such a path:', data)
-    return ((error, off), times, poses)
-def read_json(text: str) -> Json:
-    def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-        need(len({k for k, _ in pairs}) == len(pairs), 'a key is there twice:', pairs); return dict(pairs)
-    return json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
-class Scene:
-    def __init__(self, text: str) -> None:
-        try: self.read(read_json(text))
-        except (ValueError, RecursionError) as error:
-            raise NoProofError(f'the scene is not JSON, or nested too deeply: {error}') from None
-    def read(self, data: Json) -> None:
-        top = keys(data, ['exactpt', 'time', 'bodies']); version = top['exactpt']
-        need(version == '1' and isinstance(version, Bare), 'not of format 1:', version)
-        self.start, self.end = point(top['time']); need(self.start < self.end, 'an empty time span:', top['time'])
-        self.bodies, self.body_of = (list[Body](), list[int]())
-        for i, entry in enumerate(entries(top['bodies'])):
-            self.bodies.append(Body(entry, len(self.body_of), self.start)); self.body_of += [i] * self.bodies[-1].size
-        need(len({body.name for body in self.bodies}) == len(self.bodies), 'a name is there twice')
-    def of(self, v: int) -> Body: return self.bodies[self.body_of[v]]
-    def track(self, v: int, after: Fraction) -> Track: body = self.of(v); return body.track(v - body.first, after)
-    def place(self, v: int, t: Fraction) -> Whole: x, y, w = values(self.track(v, t), t); return (x, y, w)
-MAX_BYTES, MAX_LINE_BYTES = (10 ** 9, 10 ** 8)
-def is_rational(word: str) -> bool:
-    over, _, under = word.removeprefix('-').partition('/'); is_short = max(len(over), len(under)) <= MAX_DIGITS
-    return bool(is_short and re.fullmatch(R, word) and ('/' not in word or under.strip('0')))
-def read(proof: bytes) -> list[tuple[int, list[str]]]:
-    rows = []
-    for i, line in enumerate(proof.split(b'\n'), 1):
-        if len(line) > MAX_LINE_BYTES: raise NoProofError(f'line {i} is too long')
-        row = re.findall('[^ \\t\\r]+', line.decode())
-        if row and (not line.startswith(b'#')):
-            form = FORMS.get(row[0], FORMS['none'])
-            if not form.fullmatch(' '.join(row)) or not is_bounded(row):
-                raise NoProofError(f'line {i} is not in the format')
-            rows.append((i, row))
-    if not re.fullmatch(ORDER, ' '.join((row[0] for _, row in rows))):
-        raise NoProofError('the file is no proof, or the order of its lines is another one')
-    return rows
-def file_bytes(path: Path) -> bytes:
-    with path.open('rb') as file: return file.read(MAX_BYTES + 1)
-def say(text: str, code: int, file: TextIO) -> int:
-    shown = (c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text); file.write(''.join(shown) + '\n')
-    return code
-# ---- End of the copy.
-# fmt: on
+from exactpt.proof_scene import (
+    MAX_BYTES,
+    MAX_DIGITS,
+    Body,
+    Dart,
+    Exhausted,
+    Format,
+    NoProofError,
+    Poly,
+    R,
+    Rejected,
+    Scene,
+    Track,
+    V,
+    Whole,
+    budget,
+    check_json,
+    dot_of,
+    entries,
+    file_bytes,
+    integer,
+    is_rational,
+    meet,
+    most_words,
+    need,
+    number,
+    rational,
+    read,
+    read_json,
+    require,
+    say,
+    spend,
+    surrounds,
+    turn,
+    values,
+    words,
+    written,
+)
 
 USAGE = "python3 -I FILE SCENE CERTIFICATE [--until T] [--partial] [--expect ANSWER] [--work N]"
-R, V, Z = r"-?[0-9]++(/[0-9]++)?", "[0-9]{1,9}", "-?[0-9]++"  # a rational, a number, an integer
+Z = "-?[0-9]++"  # an integer
 LINES = (
     f"exactpt-apart 1;scene sha256 [^ ]+;span {R} {R};between {V} {V};ignoring {V}( {V})+;none;"
     f"distance {R};t( {R})?;c {Z} {Z} {R}( {R})?;s {V} {V};meet {R} {V} {V};inside {R} {V} {V};"
@@ -388,6 +87,9 @@ def is_bounded(row: list[str]) -> bool:
     """Return True if the numbers of a line are small enough."""
     some = [w for w in row[1:] if "/" in w or len(w) > MAX_DIGITS]
     return row[0] in ("exactpt-apart", "scene") or all(map(is_rational, some))
+
+
+FORMAT = Format(FORMS, ORDER, is_bounded)
 
 
 class Interval:
@@ -448,8 +150,10 @@ def hull(track: Track, a: int, b: int, m: int) -> Hull:
 
 
 def planes_of(x: int, y: int, c: Fraction, v: Fraction, r: Fraction, far: Fraction) -> Planes:
-    """Two linear forms of (w x, w y, w t, w): below the first one, and not below the second one,
-    paths are farther than r from a moving line on both sides, and than r + far on the second.
+    """Return two linear forms of (w x, w y, w t, w), one for each side of a moving line.
+
+    Paths that are below the first one, and not below the second one, are farther than r from the
+    line on both sides, and than r + far on the second.
     """
     low = high = c
     if r or far:
@@ -497,7 +201,7 @@ def require_passage(tracks: Sequence[Track], s: Fraction, t: Fraction) -> None:
 
 
 class Proved(str):
-    """The statement: apart up to ``low``, in contact by ``until``; of the ``whole`` scene or not."""
+    """The statement: apart up to ``low``, in contact by ``until``; of the ``whole`` scene?"""
 
     low: Fraction
     until: Fraction
@@ -540,7 +244,7 @@ class Checker:
                     self.group[i] = some[0]
 
     def index(self, word: str, things: Sequence[Any]) -> int:
-        """The number of a body, a vertex or an item."""
+        """Return the number of a body, a vertex or an item."""
         require(int(word) < len(things), f"not a number from 0 to {len(things) - 1}: {word}")
         return int(word)
 
@@ -639,7 +343,7 @@ class Checker:
         return t, text, [i, j]
 
     def short(self, v: int) -> str:
-        """A vertex, or the edge that begins there."""
+        """Return the name of a vertex, or of the edge that begins there."""
         return f"b{self.scene.body_of[v]}.{v - self.scene.of(v).first}"
 
     def run(self, accepted: str = "") -> Proved:
@@ -665,7 +369,8 @@ class Checker:
             text += f"in [{written(a)}, {written(low)}]" if a < low else f"at t = {written(a)}"
             text += ", the whole span" * (not rest)
         if rest:
-            text += f"; the span of the scene is [{written(first)}, {written(end)}]: nothing is said of {' and '.join(rest)}"
+            span = f"[{written(first)}, {written(end)}]"
+            text += f"; the span of the scene is {span}: nothing is said of {' and '.join(rest)}"
         chosen = sorted({*bodies, *self.chosen})
         said = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in chosen)
         names = f" ({said})" if said else ""
@@ -677,7 +382,7 @@ class Checker:
 
 
 def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Proved:
-    """Check a certificate; return its statement. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
+    """Check a certificate; return its statement. May raise an exception as `proof_check.check`."""
     line, checker = 0, None
     with budget(work, len(scene_file) + len(certificate)):
         try:
@@ -685,7 +390,7 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
             need(size <= MAX_BYTES, "or the certificate: too many bytes")
             text, digest = scene_file.decode("utf-8-sig"), hashlib.sha256(scene_file).hexdigest()
             many = certificate.startswith(b"exactpt-apart-rows 1\n")
-            rows = [] if many else read(certificate)
+            rows = [] if many else read(certificate, FORMAT)
             head = f"exactpt-apart-rows 1\nscenes sha256 {digest}\n".encode()
             if not certificate.startswith(head) if many else rows[1][1][2] != digest:
                 raise NoProofError(
@@ -713,7 +418,8 @@ def check_rows(accepted: str, scenes: list[str], rows: list[str]) -> Proved:
     for k, (scene, row) in enumerate(zip(scenes, rows, strict=True), 1):
         made, kind = Scene(scene), "open"
         if row != "open":
-            lines = read(f"exactpt-apart 1\nscene sha256 -\n{row.replace(';', chr(10))}".encode())
+            lines_of_row = row.replace(";", "\n")
+            lines = read(f"exactpt-apart 1\nscene sha256 -\n{lines_of_row}".encode(), FORMAT)
             try:
                 checker = Checker(made, lines)
                 require(len(made.bodies) > 1 and not checker.distance, "no contacts of two bodies")

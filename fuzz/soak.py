@@ -19,7 +19,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
-from exactpt import proof_check
+from exactpt import proof_check, proof_scene
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel import budget
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -258,7 +258,7 @@ class Soak:
             write_proof(scene, path, scene_file=text, tiling=self.tiling)
             try:
                 proof_check.check(text, path.read_bytes())
-            except proof_check.Rejected as verdict:
+            except proof_scene.Rejected as verdict:
                 raise AuditError(f"a proof is rejected: {verdict}") from None
 
     def _scene_now(self) -> Scene:

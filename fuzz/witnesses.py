@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final, TypeAlias
 
-from exactpt import Contact, Scene, Simulation, first_contact, proof_check, prove
+from exactpt import Contact, Scene, Simulation, first_contact, proof_check, proof_scene, prove
 from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.motion.tileable import are_tileable
@@ -134,7 +134,7 @@ def check_proof(scene: Scene, tiling: str, *, in_python: bool) -> None:
     if in_python:
         try:
             proof_check.check(proved.scene, proved.text)
-        except proof_check.Rejected as rejected:
+        except proof_scene.Rejected as rejected:
             raise Difference(f"{tiling}: proof in Python", str(rejected)) from None
 
 

@@ -73,7 +73,7 @@ if TYPE_CHECKING:
 @click.option(
     "--proof",
     type=click.Path(path_type=Path),
-    help="Write a proof of the result; python3 -I exactpt/proof_check.py SCENE PROOF checks it.",
+    help="Write a proof of the result; exactpt check --write-checker FILE writes what checks it.",
 )
 @click.option(
     "--certificate",

@@ -94,12 +94,12 @@ def _write_checker(ctx: click.Context, option: click.Parameter, path: Path | Non
     """Write a checker of proofs or certificates and end, before a scene is required."""
     if path is None or ctx.resilient_parsing:
         return
-    from exactpt import check_apart, proof_check
     from exactpt.files import write_atomically
+    from exactpt.proof.handout import checker_file
 
     is_apart = option.name == "write_apart"
     kind = "CERTIFICATE" if is_apart else "PROOF"
-    content = Path(check_apart.__file__ if is_apart else proof_check.__file__).read_bytes()
+    content = checker_file("check_apart" if is_apart else "proof_check")
     write_atomically(path, content)
     print_output(f"{hashlib.sha256(content).hexdigest()}  {path}")
     print_error(f"run it as: python3 -I {path} SCENE {kind}")

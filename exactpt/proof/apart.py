@@ -12,12 +12,12 @@ from typing import Any, Final, TypeAlias, final
 
 import numpy as np
 
-from exactpt.check_apart import written
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
 from exactpt.proof.frame import Cut, Extents, Frame
 from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane
 from exactpt.proof.whole import MOST, VECTORS, WholeBodies, direction_between
+from exactpt.proof_scene import written
 
 CLEAR: Final = 1e-11
 """Smallest gap that a line is put into, relative to the extent of all items."""

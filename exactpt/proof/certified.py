@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.cached_property import cached_property
-from exactpt.check_apart import Rejected, is_bounded, written
+from exactpt.check_apart import is_bounded
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
@@ -28,6 +28,7 @@ from exactpt.proof.emit import may_write_beside, write_beside
 from exactpt.proof.meeting import Meetings
 from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
+from exactpt.proof_scene import Rejected, written
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import scene_bytes, to_json
 

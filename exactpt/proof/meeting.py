@@ -9,10 +9,11 @@ from typing import final
 
 import numpy as np
 
-from exactpt.check_apart import Poly, Rejected, Whole, are_near, require_passage, surrounds, written
+from exactpt.check_apart import are_near, require_passage
 from exactpt.motion.track import Touch
 from exactpt.proof.frame import TINY
 from exactpt.proof.paths import Paths
+from exactpt.proof_scene import Poly, Rejected, Whole, surrounds, written
 
 
 @final

@@ -15,8 +15,8 @@ from exactpt.cached_property import cached_property
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
-    from exactpt.check_apart import Whole
     from exactpt.motion.body import Body
+    from exactpt.proof_scene import Whole
 
 Items: TypeAlias = "np.ndarray[Any, np.dtype[np.intp]]"
 Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"

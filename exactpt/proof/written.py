@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from exactpt import proof_scene
 from exactpt.brief import record_in_brief
 from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically
@@ -50,9 +51,9 @@ class Proof(NamedTuple):
         checker = check_apart if self.text.startswith(b"exactpt-apart") else proof_check
         try:
             return checker.check(self.scene, self.text)  # type: ignore[no-any-return]
-        except (proof_check.Rejected, check_apart.Rejected) as rejected:
+        except proof_scene.Rejected as rejected:
             raise AuditError(str(rejected)) from None
-        except (proof_check.Exhausted, check_apart.Exhausted) as exhausted:
+        except proof_scene.Exhausted as exhausted:
             raise BudgetExceeded(str(exhausted), None) from None
 
     def save(self, path: str | Path) -> None:

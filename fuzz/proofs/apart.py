@@ -13,7 +13,7 @@ from pathlib import Path
 from random import Random
 from typing import Final
 
-from exactpt import check_apart, first_contact
+from exactpt import check_apart, first_contact, proof_scene
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import rational
@@ -42,11 +42,11 @@ def verdict(scene: bytes, certificate: bytes) -> tuple[int, str]:
     """Return the exit code and the line of the checker in Python."""
     try:
         return 0, str(check_apart.check(scene, certificate))
-    except check_apart.Rejected as rejected:
+    except proof_scene.Rejected as rejected:
         return 1, str(rejected)
-    except check_apart.NoProofError as refused:
+    except proof_scene.NoProofError as refused:
         return 2, str(refused)
-    except check_apart.Exhausted as exhausted:
+    except proof_scene.Exhausted as exhausted:
         return 4, str(exhausted)
 
 

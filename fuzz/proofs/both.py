@@ -13,7 +13,7 @@ from pathlib import Path
 from random import Random
 from typing import Any, Final
 
-from exactpt import Body, InputError, PosePath, Scene, proof_check, prove
+from exactpt import Body, InputError, PosePath, Scene, proof_check, proof_scene, prove
 from exactpt.scene.generate import families, generate
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit
@@ -229,11 +229,11 @@ def verdicts(scene: bytes, proof: bytes) -> tuple[tuple[int, str], tuple[int, st
     """The exit code and the line of the checker in Python, and those of the one in C++."""
     try:
         by_python = 0, str(proof_check.check(scene, proof))
-    except proof_check.Rejected as rejected:
+    except proof_scene.Rejected as rejected:
         by_python = 1, str(rejected)
-    except proof_check.NoProofError as refused:
+    except proof_scene.NoProofError as refused:
         by_python = 2, str(refused)
-    except proof_check.Exhausted as exhausted:
+    except proof_scene.Exhausted as exhausted:
         by_python = 4, str(exhausted)
     line = checker().verdict(scene, proof)
     return by_python, (CODES[line.split(": ")[0]], line)

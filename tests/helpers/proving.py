@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from exactpt import InputError, proof_check
+from exactpt import InputError, proof_check, proof_scene
 from exactpt.cgal import check_proof
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.written import scene_bytes
@@ -30,9 +30,9 @@ def without_hash(line):
 def in_python(scene, proof):
     try:
         return without_hash(proof_check.check(scene, proof))
-    except proof_check.Rejected as rejected:
+    except proof_scene.Rejected as rejected:
         return str(rejected)
-    except proof_check.NoProofError as refused:
+    except proof_scene.NoProofError as refused:
         return f"rejected: {refused}"
 
 

@@ -9,7 +9,15 @@ import pytest
 from click.testing import CliRunner
 from proving import by_both_checkers  # noqa: F401 - a fixture
 
-from exactpt import Body, Bounce, InputError, Scene, Simulation, Translation, proof_check
+from exactpt import (
+    Body,
+    Bounce,
+    InputError,
+    Scene,
+    Simulation,
+    Translation,
+    proof_scene,
+)
 from exactpt.cli import cli
 from exactpt.scene.generate import generate
 
@@ -154,7 +162,7 @@ def test_the_end_of_a_proof(tmp_path):
     simulation.end_proof()
     (line,) = all_accepted(tmp_path / "irrational")
     proved = line.split("[0, ")[1].split("]")[0]
-    assert simulation.now.compare_rational(proof_check.Fraction(proved)) > 0
+    assert simulation.now.compare_rational(proof_scene.Fraction(proved)) > 0
     simulation.end_proof()
 
 

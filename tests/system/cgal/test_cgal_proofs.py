@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from exactpt import BudgetExceeded, InputError, Scene, proof_check, prove
+from exactpt import BudgetExceeded, InputError, Scene, proof_check, proof_scene, prove
 from exactpt.cgal import check_proof
 from exactpt.check import check_scene
 from exactpt.scene.generate import FAMILIES, POINTS, generate
@@ -39,9 +39,9 @@ def in_python(scene, proof):
     """The exit code, and the line."""
     try:
         return 0, proof_check.check(scene, proof)
-    except proof_check.Rejected as rejected:
+    except proof_scene.Rejected as rejected:
         return 1, str(rejected)
-    except proof_check.NoProofError as refused:
+    except proof_scene.NoProofError as refused:
         return 2, str(refused)
 
 

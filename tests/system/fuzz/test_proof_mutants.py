@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import exactpt
-from exactpt import AuditError, Scene, check_apart, proof_check, prove
+from exactpt import AuditError, Scene, check_apart, proof_check, proof_scene, prove
 from exactpt.scene.generate import EVERY, generate
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.limits import TooSlow
@@ -33,7 +33,7 @@ def _program(program, monkeypatch):
 def in_python(mutant):
     try:
         return proof_check.check(mutant.scene, mutant.proof)
-    except (proof_check.Rejected, proof_check.NoProofError) as error:
+    except (proof_scene.Rejected, proof_scene.NoProofError) as error:
         return str(error)
 
 

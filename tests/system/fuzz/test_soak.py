@@ -62,7 +62,7 @@ def test_overlap_and_rejected_proofs_are_noticed(monkeypatch):
         soaked.audit()
 
     def rejected(*_):
-        raise soak.proof_check.Rejected("line 3")
+        raise soak.proof_scene.Rejected("line 3")
 
     monkeypatch.setattr(soak.proof_check, "check", rejected)
     with pytest.raises(AuditError, match="a proof is rejected: line 3"):

@@ -15,7 +15,15 @@ from folding import every
 from public_calls import CALLS, command, long_world
 
 import exactpt
-from exactpt import AlgebraicNumber, Body, Polynomial, Scene, Translation, check_apart, proof_check
+from exactpt import (
+    AlgebraicNumber,
+    Body,
+    Polynomial,
+    Scene,
+    Translation,
+    proof_scene,
+)
+from exactpt.proof.handout import checker_file
 
 DIGITS = "7" * 9999 + "9"
 """10,000 digits: as many as a scene may have."""
@@ -78,20 +86,19 @@ def test_texts_of_numbers_are_short_or_whole(limited):
     assert repr(Polynomial([n])).startswith("Polynomial(['7777")
 
 
-@every("checker", [proof_check, check_apart])
-def test_integers_are_read_and_written_in_pieces(checker, limited):
+def test_integers_are_read_and_written_in_pieces(limited):
     rng = random.Random(1)
     for size in [1, 2, *range(600, 700, 7), 1279, 1280, 1281, 1920, 2559, 2560, 2561, 12345]:
         for sign in ("", "-", "+"):
             text = str(rng.randint(1, 9)) + "".join(rng.choices("0123456789", k=size - 1))
-            value = checker.integer(sign + text)
+            value = proof_scene.integer(sign + text)
             assert value == int(gmpy2.mpz(sign.strip("+") + text))
-            assert checker.digits(value) == sign.strip("+") + text
+            assert proof_scene.digits(value) == sign.strip("+") + text
         for value in (10**size, 10**size - 1, 2**size, 2**size - 1, -(10**size)):
-            assert checker.digits(value) == str(gmpy2.mpz(value))
-            assert checker.integer(checker.digits(value)) == value
-    assert checker.integer("0" * 5000 + "7") == 7
-    assert checker.written(Fraction(-(10**700), 3)) == f"-1{'0' * 700}/3"
+            assert proof_scene.digits(value) == str(gmpy2.mpz(value))
+            assert proof_scene.integer(proof_scene.digits(value)) == value
+    assert proof_scene.integer("0" * 5000 + "7") == 7
+    assert proof_scene.written(Fraction(-(10**700), 3)) == f"-1{'0' * 700}/3"
 
 
 @pytest.mark.long
@@ -101,7 +108,7 @@ def test_long_integers_take_less_than_quadratic_time(limited):
     def seconds(size):
         text = "7" * size
         begin = time.process_time()
-        assert proof_check.digits(proof_check.integer(text)) == text
+        assert proof_scene.digits(proof_scene.integer(text)) == text
         return time.process_time() - begin
 
     seconds(10_000)
@@ -126,8 +133,9 @@ def test_a_command_works_under_the_limit_of_the_environment(tmp_path):
         cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
+    (tmp_path / "check.py").write_bytes(checker_file("proof_check"))
     checked = subprocess.run(
-        [sys.executable, "-I", proof_check.__file__, "s.json", "a.proof"],
+        [sys.executable, "-I", "check.py", "s.json", "a.proof"],
         cwd=tmp_path, capture_output=True, text=True, check=False, env=environment,
     )  # fmt: skip
     assert checked.returncode == 0, checked.stdout

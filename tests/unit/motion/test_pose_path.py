@@ -18,7 +18,7 @@ from exactpt import (
     Rigid,
     Scene,
     first_contact_enclosed,
-    proof_check,
+    proof_scene,
 )
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
@@ -354,7 +354,7 @@ def test_bodies_that_touch_at_the_start_are_ignored_there_too():
 
 
 def read_by_the_checker(data):
-    return proof_check.Scene(json.dumps(data))
+    return proof_scene.Scene(json.dumps(data))
 
 
 def in_a_file():
@@ -383,7 +383,7 @@ def test_a_path_that_its_pieces_do_not_follow_is_refused(key):
     data["bodies"][0]["motion"]["path"][key] = TAMPERED[key]
     with pytest.raises(InputError, match="motion"):
         Scene.from_json(data)
-    with pytest.raises(proof_check.NoProofError, match="not such a path"):
+    with pytest.raises(proof_scene.NoProofError, match="not such a path"):
         read_by_the_checker(data)
 
 
@@ -392,7 +392,7 @@ def test_a_path_excludes_a_spin():
     data["bodies"][0]["motion"]["spin"] = {"omega": "1", "error": "1"}
     with pytest.raises(InputError, match="exclude"):
         Scene.from_json(data)
-    with pytest.raises(proof_check.NoProofError, match="both a spin and a path"):
+    with pytest.raises(proof_scene.NoProofError, match="both a spin and a path"):
         read_by_the_checker(data)
 
 

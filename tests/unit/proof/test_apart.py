@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import runpy
 import subprocess
 import sys
 from fractions import Fraction
@@ -12,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 import exactpt
-from exactpt import Body, Rigid, Scene, Translation, check_apart, proof_check
+from exactpt import Body, Rigid, Scene, Translation, check_apart, proof_scene
 from exactpt.cli import cli
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.proof import certify_rows
@@ -47,24 +46,14 @@ def verdict(scene, *lines, start=0, until=8):
     head = ["exactpt-apart 1", f"scene sha256 {digest}", f"span {start} {until}"]
     try:
         return check_apart.check(file, "\n".join([*head, *lines, ""]).encode()).split(" ", 2)[2]
-    except check_apart.Rejected as rejected:
+    except proof_scene.Rejected as rejected:
         return str(rejected)
-    except check_apart.NoProofError as refused:
+    except proof_scene.NoProofError as refused:
         return f"no proof: {refused}"
 
 
 def scene_file(*given, time=(0, 8)):
     return json.dumps({"exactpt": 1, "time": time, "bodies": given}).encode()
-
-
-def test_the_copy_of_the_reader_is_current():
-    copier = runpy.run_path(str(ROOT / ".ci/copy_reader.py"))
-    text = Path(check_apart.__file__).read_text(encoding="utf-8")
-    copied = text.split(copier["BEGIN"] + "\n")[1].split(copier["END"])[0]
-    source = Path(proof_check.__file__).read_text(encoding="utf-8")
-    assert copied == copier["reader"](source), "run python .ci/copy_reader.py"
-    own = text.replace(copied, "").splitlines()
-    assert sum(bool(line.strip()) for line in own) <= 402
 
 
 def test_the_checker_imports_nothing_but_the_standard_library():
@@ -83,7 +72,7 @@ def test_items_are_numbered_alike():
             scene = generate(family, 3)
         except KeyError:
             continue
-        read = check_apart.Scene(exactpt.proof.emit.scene_bytes(scene).decode())
+        read = proof_scene.Scene(exactpt.proof.emit.scene_bytes(scene).decode())
         items = [(i, *d) for i, b in enumerate(read.bodies) for d in b.edges or [(b.first,) * 2]]
         assert Paths(scene.bodies, Fraction(0)).items == items
 
@@ -421,7 +410,7 @@ def test_pairs_that_do_not_count_prove_nothing():
 
 def test_a_certificate_of_another_scene_is_refused():
     proof = exactpt.certify(TWO)
-    with pytest.raises(check_apart.NoProofError, match="for a different scene"):
+    with pytest.raises(proof_scene.NoProofError, match="for a different scene"):
         check_apart.check(proof.scene + b" ", proof.text)
     with pytest.raises(AuditError):
         proof._replace(text=proof.text.replace(b"meet 4", b"meet 5/2")).check()
@@ -462,15 +451,15 @@ def test_rows_of_arrays():
     wide = proof._replace(text=b"\n".join([*lines[:2], b"open", *lines[3:]]))
     assert said(wide).endswith("no contact in 1, contact at the start in 1, open in 1")
     assert not wide.check().whole
-    with pytest.raises(check_apart.NoProofError, match="a last line without an end"):
+    with pytest.raises(proof_scene.NoProofError, match="a last line without an end"):
         check_apart.check(proof.scene, proof.text[:-1])
     for part in (proof.scene + proof.scene.split(b"\n")[0], proof.scene + b"\n"):
         digests = [hashlib.sha256(x).hexdigest().encode() for x in (proof.scene, part)]
-        with pytest.raises(check_apart.NoProofError):  # a scene without a row
+        with pytest.raises(proof_scene.NoProofError):  # a scene without a row
             check_apart.check(part, proof.text.replace(*digests))
-    with pytest.raises(check_apart.NoProofError):
+    with pytest.raises(proof_scene.NoProofError):
         check_apart.check(b"", b"exactpt-apart-rows 1")
-    with pytest.raises(check_apart.NoProofError, match="the numbers of scenes and of rows"):
+    with pytest.raises(proof_scene.NoProofError, match="the numbers of scenes and of rows"):
         check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
 
 
@@ -520,7 +509,7 @@ WRONG_ROWS = [  # bodies that never touch are not "in contact", however near a d
 
 def test_rows_with_a_distance_or_one_body_are_refused():
     for scenes, row, code in WRONG_ROWS:
-        error = check_apart.Rejected if code == 1 else check_apart.NoProofError
+        error = proof_scene.Rejected if code == 1 else proof_scene.NoProofError
         start = "^rejected: row 1: no contacts of two bodies" if code == 1 else "BOM"
         with pytest.raises(error, match=start):
             check_apart.check(*row_files(scenes, row))

@@ -2,10 +2,13 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from click.testing import CliRunner
@@ -13,9 +16,10 @@ from folding import every
 from proving import accepted, proof_of
 
 import exactpt
-from exactpt import InputError, check_apart, proof_check
+from exactpt import InputError, proof_check, proof_scene
 from exactpt.cli import cli
 from exactpt.proof.emit import ProofRun
+from exactpt.proof.handout import checker_file
 from exactpt.scene.generate import generate
 
 
@@ -25,9 +29,26 @@ def scene():
 
 
 def check(*paths):
-    command = [sys.executable, "-I", proof_check.__file__, *map(str, paths)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    """Run the checker as it is handed out: one file, without the package."""
+    with TemporaryDirectory() as folder:
+        program = Path(folder) / "check.py"
+        program.write_bytes(checker_file("proof_check"))
+        command = [sys.executable, "-I", program, *map(str, paths)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("name", ["proof_check", "check_apart"])
+def test_a_checker_that_is_handed_out_is_one_file_with_the_words_of_both(name):
+    joined = checker_file(name).decode()
+
+    for module in (name, "proof_scene"):
+        text = (Path(proof_check.__file__).parent / f"{module}.py").read_text(encoding="utf-8")
+        code = text.split('"""\n', 1)[1]
+        own = re.sub(r"from exactpt\.proof_scene import \([^)]*\)\n", "", code)
+        assert all(line in joined for line in own.splitlines())
+    assert "exactpt import" not in joined
+    assert "import exactpt" not in joined
 
 
 def test_the_checker_imports_nothing_but_the_standard_library():
@@ -41,21 +62,22 @@ def test_the_checker_imports_nothing_but_the_standard_library():
         "exactpt",
         "exactpt.extensions",  # of the package itself, as every import of one of its modules
         "exactpt.proof_check",
+        "exactpt.proof_scene",
     }
     assert {m.split(".")[0] for m in found} <= {*sys.stdlib_module_names, "exactpt"}
 
 
 def test_bug_a_line_is_measured_in_bytes(monkeypatch):
     """The checker in Python counted characters, the one in C++ bytes."""
-    monkeypatch.setattr(proof_check, "MAX_LINE_BYTES", 30)
+    monkeypatch.setattr(proof_scene, "MAX_LINE_BYTES", 30)
     head = b"exactpt-proof 1\nscene sha256 x\nspan 0 1\n%s\nnone\n"
-    proof_check.read(head % b"# 2345678901234567890123456789")
-    with pytest.raises(proof_check.NoProofError, match="line 4 is too long"):
-        proof_check.read(head % "# äöüäöüäöüäöüäöüäöü".encode())
+    read = partial(proof_scene.read, file_format=proof_check.FORMAT)
+    read(head % b"# 2345678901234567890123456789")
+    with pytest.raises(proof_scene.NoProofError, match="line 4 is too long"):
+        read(head % "# äöüäöüäöüäöüäöüäöü".encode())
 
 
-@pytest.mark.parametrize("checker", [proof_check, check_apart])
-def test_bug_the_zeros_of_a_polynomial_were_cut_off_one_by_one(checker):
+def test_bug_the_zeros_of_a_polynomial_were_cut_off_one_by_one():
     """Each made a copy: a list of 200,000 zeros took a minute."""
     lines = []
 
@@ -66,7 +88,7 @@ def test_bug_the_zeros_of_a_polynomial_were_cut_off_one_by_one(checker):
     before = sys.gettrace()
     sys.settrace(count)
     try:
-        f = checker.Poly([1, 2, *[0] * 5_000])
+        f = proof_scene.Poly([1, 2, *[0] * 5_000])
     finally:
         sys.settrace(before)
 
@@ -117,7 +139,7 @@ def test_modules_planted_nearby_do_not_run(scene, tmp_path, name):
     proved = exactpt.prove(scene)
     proved.save(tmp_path / "p")
     program = tmp_path / "check.py"
-    program.write_bytes(Path(proof_check.__file__).read_bytes())
+    program.write_bytes(checker_file("proof_check"))
     (tmp_path / f"{name}.py").write_text("import os; print('planted'); os._exit(0)\n")
     for options, code in ((["-I"], 0), ([], 2), (["-s"], 2)):
         command = [sys.executable, *options, program, "p.scene.json", "p"]
@@ -175,8 +197,8 @@ def test_degrees_that_no_checker_takes_are_refused(tmp_path):
             exactpt.first_contact(scene, proof=tmp_path / "p")
         with pytest.raises(InputError, match="proofs are checked up to degree 64"):
             list(exactpt.Simulation(scene, proof=tmp_path / "folder").run())
-        with pytest.raises(proof_check.NoProofError, match="degree above 64"):
-            proof_check.Scene(json.dumps(exactpt.scene.written.to_json(scene)))
+        with pytest.raises(proof_scene.NoProofError, match="degree above 64"):
+            proof_scene.Scene(json.dumps(exactpt.scene.written.to_json(scene)))
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 
@@ -193,10 +215,10 @@ def test_scenes_are_read_as_the_format_says():
         {"name": "a", "vertices": [["0","0"], [1, "1/2"], {"x": [0.5], "y": ["-3e-2", 1]}]},
         {"name": "b", "keyframes": [{"t": 0, "vertices": [[5, 5]]}, {"t": 2, "vertices": [[6, 7]]}]}
     ]}"""
-    scene = proof_check.Scene(text)
+    scene = proof_scene.Scene(text)
     assert (scene.start, scene.end) == (-1, 2.5)
-    assert scene.at(2, scene.end) == (0.5, proof_check.Fraction("2.47"))
-    assert [scene.at(3, t) for t in map(proof_check.Fraction, (-1, 1, 2))] == [
+    assert scene.at(2, scene.end) == (0.5, proof_scene.Fraction("2.47"))
+    assert [scene.at(3, t) for t in map(proof_scene.Fraction, (-1, 1, 2))] == [
         (5, 5),
         (5.5, 6),
         (6, 7),
@@ -218,8 +240,8 @@ def test_scenes_are_read_as_the_format_says():
     ],
 )
 def test_what_is_no_scene(text):
-    with pytest.raises(proof_check.NoProofError):
-        proof_check.Scene(text)
+    with pytest.raises(proof_scene.NoProofError):
+        proof_scene.Scene(text)
 
 
 @pytest.mark.parametrize("family", ["turning", "keyframed", "pieces", "deforming", "clamps"])
@@ -227,11 +249,11 @@ def test_tracks_are_those_of_the_package(family):
     from exactpt.scene.written import scene_bytes
 
     scene = generate(family, 5)
-    read = proof_check.Scene(scene_bytes(scene).decode())
+    read = proof_scene.Scene(scene_bytes(scene).decode())
     for k in range(9):
         t = scene.start + (scene.end - scene.start) * k / 8
         places = [p for body in scene.bodies for p in body.at(t)]
-        at = proof_check.Fraction(str(t))
+        at = proof_scene.Fraction(str(t))
         assert [tuple(map(str, p)) for p in places] == [
             tuple(map(str, read.at(v, at))) for v in range(len(places))
         ]
@@ -290,12 +312,12 @@ def test_bug_a_part_that_lasts_no_time_left_its_file_open(tmp_path):
 
 def test_bug_three_roots_in_a_row_are_three_times():
     """The middle root was between the intervals of the others, and taken for a root in both."""
-    unit = Fraction(1, 2**proof_check.APART)
+    unit = Fraction(1, 2**proof_scene.APART)
     middle = Fraction(1, 2)
     roots = [middle + k * unit * Fraction(3, 2) for k in (-1, 0, 1)]
-    f = proof_check.Poly([1])
+    f = proof_scene.Poly([1])
     for root in roots:
-        f = f * proof_check.Poly([-root.numerator, root.denominator])
-    a = proof_check.Time(middle - 2 * unit, middle - unit / 4, f)
-    b = proof_check.Time(middle + unit / 4, middle + 2 * unit, f)
-    assert roots[0] < proof_check.between(a, b, Fraction(0), unit) < roots[2]
+        f = f * proof_scene.Poly([-root.numerator, root.denominator])
+    a = proof_scene.Time(middle - 2 * unit, middle - unit / 4, f)
+    b = proof_scene.Time(middle + unit / 4, middle + 2 * unit, f)
+    assert roots[0] < proof_scene.between(a, b, Fraction(0), unit) < roots[2]

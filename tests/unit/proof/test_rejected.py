@@ -6,7 +6,7 @@ from random import Random
 import pytest
 from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
-from exactpt import AuditError, Body, Scene, Translation
+from exactpt import AuditError, Body, Scene, Translation, proof_scene
 from exactpt.kernel.numbers import QQ
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.format import loads
@@ -164,7 +164,7 @@ def test_another_scene():
     scene = points((0, 0), (1, 0))
     lines = "\n".join(proof_of(scene)[0]).encode()
     for text in (scene_bytes(points((0, 0), (2, 0))), b"{}"):
-        with pytest.raises(proof_check.NoProofError):
+        with pytest.raises(proof_scene.NoProofError):
             proof_check.check(text, lines)
 
 

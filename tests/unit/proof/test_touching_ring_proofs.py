@@ -5,7 +5,7 @@ import hashlib
 import pytest
 from proving import by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
-from exactpt import Body, Scene, Translation, certify, check_apart
+from exactpt import Body, Scene, Translation, certify, check_apart, proof_scene
 from exactpt.proof.lines import header
 from exactpt.scene.written import scene_bytes
 from fuzz.proofs.checking import checker
@@ -53,7 +53,7 @@ def certificate(name):
 
 @pytest.mark.parametrize("name", TOUCHING)
 def test_a_certificate_about_rings_that_touch_is_rejected(name):
-    with pytest.raises(check_apart.NoProofError, match="not simple at the start"):
+    with pytest.raises(proof_scene.NoProofError, match="not simple at the start"):
         check_apart.check(*certificate(name))
 
 
