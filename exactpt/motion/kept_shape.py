@@ -32,7 +32,7 @@ def loss_of_shape(body: Body, start: QQ, end: QQ) -> str | None:
         end: the end of the span.
     """
     if not body.vertices or any(f.degree > 0 for vertex in body.vertices for f in vertex):
-        return "it deforms"
+        return "its vertices move by polynomials of their own"
     pieces = pieces_of(body.motion)
     ends = [start, *(end if until is None else until for _, until in pieces)]
     for (motion, _), (since, until) in zip(pieces, pairwise(ends), strict=True):
@@ -55,7 +55,8 @@ def _loss_of_motion(motion: SimpleMotion, start: QQ, end: QQ) -> str | None:
     time = _first_collapse(motion, start, end)
     if time is None:
         return None
-    when = show(time._low) if time.simplified().is_rational else f"about {float(time)!r}"
+    number = time.simplified()
+    when = show(number._low) if number.is_rational else f"about {float(number)!r}"
     return f"its affine motion collapses at t = {when}"
 
 

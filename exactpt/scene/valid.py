@@ -40,11 +40,11 @@ def check_exactly(body: Body, start: QQ, end: QQ) -> None:
     """
     points = body._at(start)
     meetings = ring_meetings(points, body.edges, body.rings)
-    what = ""
+    prefix = ""
     try:
         if meetings.fault is not None:
             if meetings.fault.kind is FaultKind.SAME_RING:
-                what = f"not a simple {'polygon' if body.closed else 'chain'} and so "
+                prefix = f"not a simple {'polygon' if body.closed else 'chain'} and so "
             raise InputError(_fault_shown(body, points, meetings.fault))
         if body.has_interior:
             _check_areas(body, points)
@@ -55,7 +55,7 @@ def check_exactly(body: Body, start: QQ, end: QQ) -> None:
             _check_kept_shape(body, meetings.touches, start, end)
     except InputError as error:
         raise InputError(
-            f"body {shorten(body.name)}: {what}not valid at the start, t = {show(start)}: {error}"
+            f"body {shorten(body.name)}: {prefix}not valid at the start, t = {show(start)}: {error}"
         ) from None
 
 

@@ -164,13 +164,14 @@ class Squeeze:
         (Affine([[1, 0], [0, Polynomial([-2, 0, 1])]]), SQUARE, "collapses at t = about 1.414213"),
         (Affine([[1, 0], [0, Polynomial([4, -4, 1])]]), SQUARE, "collapses at t = 2"),
         (Affine([[1, 0], [0, Polynomial([3, -1])]]), SQUARE, "collapses at t = 3"),
+        (Affine([[1, 0], [0, Polynomial([2, -2, -1, 1])]]), SQUARE, "collapses at t = 1:"),
         (Pieces([(1, Affine(UNIT)), (None, Affine(SINGULAR_AT_2))]), SQUARE, "collapses at t = 2"),
-        (Translation(), [*SQUARE[:3], {"x": [0], "y": [8, 1]}], "it deforms"),
+        (Translation(), [*SQUARE[:3], {"x": [0], "y": [8, 1]}], "its vertices move by"),
         (Squeeze(), SQUARE, "does not know whether its motion, of class Squeeze, keeps"),
     ],
 )  # fmt: skip
 def test_rings_touch_only_of_a_body_that_keeps_its_shape(motion, vertices, reason):
-    """The determinants are 2 - t, t^2 - 2, (t - 2)^2, 3 - t and, from t = 1 on, 2 - t."""
+    """The determinants are 2 - t, t^2 - 2, (t - 2)^2, 3 - t, (t - 1) (t^2 - 2), then 2 - t."""
     body = Body("b", vertices, motion, holes=[NOTCH])
     with pytest.raises(InputError) as raised:
         Scene([body], (0, 3))
