@@ -56,7 +56,7 @@ def points_shown(points: Sequence[tuple[QQ, QQ]], most: int = 3) -> str:
     """Return points as text for a message: the first ones, and how many more there are."""
     words = " and ".join(show(*point) for point in points[:most])
     more = len(points) - most
-    return f"{words} and {more} more points" if more > 0 else words
+    return f"{words} and {more} more" if more > 0 else words
 
 
 def _untileable(bodies: Iterable[Body]) -> Body | None:

@@ -17,6 +17,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.geometry.touching_rings import (
     EdgeFault,
     FaultKind,
+    Passage,
     RingTouch,
     dividing_loop,
     ring_meetings,
@@ -96,7 +97,11 @@ def _check_nesting(body: Body, points: Sequence[Point], touches: Sequence[RingTo
     for i, j in near_groups([points[ring.start : ring.stop] for ring in rings]):
         near[i].append(j)
         near[j].append(i)
-    own_point = [_point_on_no_other(k, ring, points, touches) for k, ring in enumerate(rings)]
+    ways: list[list[tuple[Point, Passage]]] = [[] for _ in rings]
+    for touch in touches:
+        for number, way in touch.passages.items():
+            ways[number].append((touch.point, way))
+    own_point = [_point_on_no_other(*one, points) for one in zip(rings, ways, strict=True)]
 
     def around(i: int) -> set[int]:
         """Return the rings in which a ring is."""
@@ -121,14 +126,18 @@ def _check_nesting(body: Body, points: Sequence[Point], touches: Sequence[RingTo
 
 
 def _point_on_no_other(
-    number: int, ring: range, points: Sequence[Point], touches: Sequence[RingTouch]
+    ring: range, ways: Sequence[tuple[Point, Passage]], points: Sequence[Point]
 ) -> Point:
     """Return a point of a ring that is on no other ring.
 
     It is a vertex in which no other ring touches this one; without such a vertex, it is half way
     from the first vertex to the next point of a touch on the edge that begins there.
+
+    Args:
+        ring: the vertices of the ring.
+        ways: the points in which other rings touch it, and how it passes through them.
+        points: the positions of all vertices.
     """
-    ways = [(touch.point, touch.passages[number]) for touch in touches if number in touch.passages]
     touched = {way.vertex for _, way in ways}
     for vertex in ring:
         if vertex not in touched:
@@ -141,9 +150,14 @@ def _point_on_no_other(
 
 def _check_connected(body: Body, touches: Sequence[RingTouch]) -> None:
     """Check that the inside of each part is connected."""
+    part_of = [k for k, rings in enumerate(body.parts) for _ in rings]
+    of_part: list[list[RingTouch]] = [[] for _ in body.parts]
+    for touch in touches:
+        for k in {part_of[ring] for ring in touch.passages}:
+            of_part[k].append(touch)
     first = 0
     for k, rings in enumerate(body.parts):
-        loop = dividing_loop(touches, range(first, first + len(rings)))
+        loop = dividing_loop(of_part[k], range(first, first + len(rings)))
         first += len(rings)
         if loop:
             which = f"the inside of part {k}" if len(body.parts) > 1 else "the inside"
