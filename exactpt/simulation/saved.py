@@ -33,6 +33,7 @@ from exactpt.kernel.sturm import count_roots, sturm_sequence
 from exactpt.motion.body import Body
 from exactpt.motion.infinitesimal import ring_of_copies
 from exactpt.motion.normalization import Normalization, Reach, normalization_of
+from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, Pair
 from exactpt.simulation.event import Event
@@ -87,8 +88,9 @@ def tiling_from_json(data: Stored, bodies: Sequence[Body], last: QQ, *, exact_on
 
     Raises:
         InputError: if a value is not what `tiling_to_json` writes, or contradicts the bodies or
-            the time span.
+            the time span, or no tiling can hold the bodies.
     """
+    refuse_untileable(bodies)
     end = data["end"].rational()
     if end != last:
         raise InputError(f"the tiling ends at t = {show(end)}, not {show(last)}")

@@ -31,6 +31,8 @@ from exactpt import (
 )
 from exactpt.batch import Options, answers
 from exactpt.collision.comparison import contrast
+from exactpt.kernel.numbers import QQ
+from exactpt.simulation.saved import tiling_from_json, tiling_to_json
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 SQUARE = [(0, 0), (8, 0), (8, 8), (0, 8)]
@@ -261,6 +263,20 @@ def test_batches_answer_them():
     first, second = answers([json.dumps(scene.to_json()) for scene in scenes], Options())
     assert first["contact"]["time"]["low"] == "2"
     assert second["contact"]["kind"] == "vertex-edge"
+
+
+def test_a_saved_run_of_other_bodies_is_refused():
+    """The state is that of a run of a body whose hole is 1 away from the outline."""
+    apart = Body("notched", SQUARE, holes=[[(4, 1), (5, 2), (3, 2)]])
+    scene = scene_of()
+    run = Simulation(Scene([apart, Body("point", [(20, 0)])], scene.time))
+    state = tiling_to_json(run.kinetic)
+    bodies = [apart, run.body("point")]
+    tiling_from_json(state, bodies, QQ(9), exact_only=False)
+    with pytest.raises(InputError, match="body 'notched': its rings touch at"):
+        tiling_from_json(state, [notched(), bodies[1]], QQ(9), exact_only=False)
+    with pytest.raises(InputError, match="body 'point' has a radius"):
+        tiling_from_json(state, [apart, bodies[1].with_radius(1)], QQ(9), exact_only=False)
 
 
 NEEDS_DISJOINT_RINGS = {
