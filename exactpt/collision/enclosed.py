@@ -107,11 +107,13 @@ def first_contact_enclosed(
     """Return bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
 
     The result of `first_contact` is about the rational pieces of a motion, this result about the
-    angle omega t, or the path of poses, itself: the first contact in the closed time span is in
-    [low, high]; or there is one from low on, or none, since bodies may just miss each other
-    (``high`` is None).
+    angle omega t, or the path of poses, itself, and about all places within the errors that are
+    stated (`PosePath.with_place_error`): the first contact in the closed time span is in [low,
+    high]; or there is one from low on, or none, since bodies may just miss each other (``high`` is
+    None). A stated error counts at every time. So bodies that merely touch at the start are not
+    certain to touch if one of them has such an error.
 
-    >>> from exactpt import Body, Scene, Spin
+    >>> from exactpt import Body, PosePath, Scene, Spin
     >>> blade = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 2), error="1/1000"))
     >>> post = Body("post", [(-1, 1), (1, 1), (1, 2), (-1, 2)])
     >>> bounds = first_contact_enclosed(Scene([blade, post], time=(0, 2)))
@@ -119,10 +121,14 @@ def first_contact_enclosed(
     True
     >>> float(bounds.high) - float(bounds.low) < 0.01
     True
+    >>> path = PosePath([0, 2], [(1, 0, 0)]).with_place_error("1/10")
+    >>> scene = Scene([Body("probe", [(0, 0)], path), Body("wall", [(1, -5), (1, 5)])], time=(0, 2))
+    >>> first_contact_enclosed(scene)
+    EnclosedContact(low=AlgebraicNumber('0'), high=None, pairs=(('probe', 'wall'),))
 
     Args:
-        scene: the bodies, their motions and the time span. Without a `Spin` or a `PosePath`
-            both bounds are the exact time.
+        scene: the bodies, their motions and the time span. Without a `Spin`, a `PosePath` or a
+            `spline` both bounds are the exact time.
         between: pairs of names; contacts of other pairs do not count, nor do those of a body
             with itself. All if not given.
         ignoring: groups of body names. Contacts between two bodies of one group are ignored.

@@ -188,6 +188,11 @@ class _Pieces:
 
 def _check_form(curve: PiecewisePolynomial, columns: int) -> None:
     """Refuse a curve whose attributes mean something else than powers of the time in pieces."""
+    if hasattr(curve, "c") and not hasattr(curve, "x"):
+        raise InputError(
+            f"a curve without breakpoints x: {shorten(curve)}; of a B-spline take "
+            f"PPoly.from_spline, column by column"
+        )
     shape: tuple[int, ...] = getattr(getattr(curve, "c", None), "shape", ())
     if len(shape) != 3 or shape[2] != columns or not shape[0]:
         what = {2: "curve in the plane", 3: "with three columns x, y, angle"}[columns]
@@ -200,11 +205,6 @@ def _check_form(curve: PiecewisePolynomial, columns: int) -> None:
     if "BPoly" in kinds:
         raise InputError(
             "a curve in the Bernstein basis: write PPoly.from_bernstein_basis(curve) instead"
-        )
-    if not hasattr(curve, "x"):
-        raise InputError(
-            f"a curve without breakpoints x: {shorten(curve)}; of a B-spline take "
-            f"PPoly.from_spline, column by column"
         )
     if isinstance(extrapolate := getattr(curve, "extrapolate", None), str):
         raise InputError(

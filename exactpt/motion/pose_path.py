@@ -108,6 +108,7 @@ class PosePath(Pieces):
         """
         self = cls.__new__(cls)
         fit = rational(fit_place_error)
+        _check_place_error(fit)
         self._hold(times, poses, error, fit + rational(assumed_place_error), assumed_angle_error)
         self._fit(fit)
         return self
@@ -133,6 +134,8 @@ class PosePath(Pieces):
         assumed_angle_error: Rational = 0,
     ) -> None:
         """Check and keep the path and its errors."""
+        if isinstance(times, str):
+            raise InputError(f"the times of a path are a list of numbers: {shorten(times)}")
         self._times = tuple(map(rational, times))
         self._poses = tuple(_pose(i, row) for i, row in enumerate(poses))
         self._error, self._place_error = rational(error), rational(place_error)
@@ -147,8 +150,7 @@ class PosePath(Pieces):
                 raise InputError(f"times increase: {show(t)}, then {show(until)}")
         if self._error <= 0:
             raise InputError(f"an error is positive: {show(self._error)}")
-        if self._place_error < 0:
-            raise InputError(f"a place_error is not negative: {show(self._place_error)}")
+        _check_place_error(self._place_error)
         if not 0 <= self._assumed_angle_error < self._error:
             raise InputError(
                 f"an assumed_angle_error is a part of the error, {show(self._error)}: "
@@ -207,7 +209,8 @@ class PosePath(Pieces):
         if 0 < whole < 2 * angle_offset:
             raise InputError(
                 f"the small jumps of the angle add up to {nearest_float(angle_offset):.3g}, more "
-                f"than half of the error, {show(whole)}; give a larger error, or a curve that fits"
+                f"than half of the error, {nearest_float(whole):.6g}; give a larger error, or a "
+                f"curve whose pieces fit better"
             )
         if place_error is None:
             place_error = 0 if closed.degree <= DEGREE else "1/1000000"
@@ -401,8 +404,7 @@ class PosePath(Pieces):
             InputError: if it is negative.
         """
         further = rational(more)
-        if further < 0:
-            raise InputError(f"a place_error is not negative: {show(further)}")
+        _check_place_error(further)
         total = self._place_error + further
         return PosePath.of_pieces(
             self.pieces, self._times, self._poses, self._error, total, self._assumed_angle_error
@@ -434,8 +436,13 @@ class PosePath(Pieces):
         return f"<PosePath from t = {start} to {end}, {pieces}, error {error}>"
 
 
+def _check_place_error(error: QQ) -> None:
+    if error < 0:
+        raise InputError(f"a place_error is not negative: {show(error)}")
+
+
 def _pose(i: int, row: Sequence[Coefficients]) -> Pose:
-    if len(row) != 3:
+    if isinstance(row, str) or len(row) != 3:
         raise InputError(f"piece {i}: a pose is x, y and an angle: {shorten(row)}")
     x, y, angle = map(polynomial, row)
     return x, y, angle

@@ -22,7 +22,6 @@ from exactpt.kernel.numbers import (
     nearest_float,
     power_of_two,
     rational,
-    show,
 )
 from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Rigid, SimpleMotion
@@ -93,7 +92,9 @@ class _Builder:
         return [*pieces, (None, self._rest(spans[-1][1], spans[-1][2]))]
 
     def _too_many(self) -> str:
-        return f"more than {_MOST} pieces are needed for an error of {show(self._error)}"
+        return (
+            f"more than {_MOST} pieces are needed for an error of {nearest_float(self._error):.6g}"
+        )
 
     def _vector(self, t: QQ, angle: Polynomial) -> Vector:
         """Return the orientation at a time: the same for both pieces that end or begin at it."""

@@ -63,6 +63,8 @@ KEYS: Final = [
     "radius",
     "spin",
     "path",
+    "spline",
+    "assumed_angle_error",
     "until",
     "vertices",
 ]

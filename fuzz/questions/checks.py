@@ -42,7 +42,7 @@ from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, path_scene, spinning_scene
-from fuzz.questions.stated import stated_case, wrong_at_the_start
+from fuzz.questions.stated import stated_case, wrong_after_moves, wrong_at_the_start
 from fuzz.questions.tiny import touching_scene
 from fuzz.questions.touching_rings import touching_pair, wrong_validity
 from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
@@ -282,7 +282,8 @@ def _curves(random: Random) -> Checked:
 def _stated(random: Random) -> Checked:
     """first_contact_enclosed at the start, of bodies with stated errors of their places."""
     case = stated_case(random)
-    return Checked(case.scene, *wrong_at_the_start(case))
+    kind, fault = wrong_at_the_start(case)
+    return Checked(case.scene, kind, fault or wrong_after_moves(random, case))
 
 
 def _space(random: Random) -> Checked:

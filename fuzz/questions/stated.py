@@ -16,6 +16,9 @@ is stated by `PosePath.with_place_error`, by the constructor, or as jumps of a c
 from the start in all ways that have the angle 0 there; the scene begins with the path or later; an
 error may be at one body or at both. Bodies touch, overlap by less than E, by E and by more, are
 inside each other, or are a little apart.
+
+**Later** the law says: with both bodies moved by constant vectors of the lengths of their errors,
+their first contact is between the bounds. It is computed by `fuzz.questions.true_turns`.
 """
 
 from __future__ import annotations
@@ -27,6 +30,8 @@ from math import isqrt
 from random import Random
 from typing import Any, Final, NamedTuple
 
+import mpmath
+
 from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.body import Body
@@ -35,8 +40,9 @@ from exactpt.motion.pose_path import PosePath
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz.questions import reference
+from fuzz.questions.true_turns import DIGITS, Truth, UndecidedError, real
 
-__all__ = ["Stated", "Wrong", "stated_case", "wrong_at_the_start"]
+__all__ = ["Stated", "Wrong", "stated_case", "wrong_after_moves", "wrong_at_the_start"]
 
 Point = tuple[Fraction, Fraction]
 
@@ -72,16 +78,21 @@ class Stated(NamedTuple):
     Attributes:
         scene: the scene.
         at_start: the two bodies at rest, where they are at the start without the errors.
-        error: the sum of their stated errors.
+        errors: their stated errors.
         is_convex: whether both are convex, without a radius.
         is_all: whether no other error than the stated ones is left at the start.
     """
 
     scene: Scene
     at_start: tuple[Body, Body]
-    error: Fraction
+    errors: tuple[Fraction, Fraction]
     is_convex: bool
     is_all: bool
+
+    @property
+    def error(self) -> Fraction:
+        """The sum of the stated errors."""
+        return sum(self.errors, Fraction(0))
 
 
 class Wrong(NamedTuple):
@@ -129,8 +140,50 @@ def stated_case(random: Random) -> Stated:
         bodies.reverse()
     is_convex = CONVEX.issuperset(names) and not radius
     return Stated(
-        Scene(bodies, time=(start, end)), (resting[0], resting[1]), total, is_convex, is_all
+        Scene(bodies, time=(start, end)),
+        (resting[0], resting[1]),
+        (errors[0], errors[1]),
+        is_convex,
+        is_all,
     )
+
+
+def wrong_after_moves(random: Random, case: Stated) -> str | None:
+    """Return the fault of the bounds for the bodies after moves by their errors; None if none."""
+    bounds = first_contact_enclosed(case.scene)
+    x, y = random.choice(UNITS)
+    moves = {
+        body.name: (x * error, y * error)
+        for body, error in zip(case.at_start, (case.errors[0], -case.errors[1]), strict=True)
+    }
+    bodies = [_moved_path(body, moves.get(body.name)) for body in case.scene.bodies]
+    scene = Scene(bodies, time=(case.scene.start, case.scene.end))
+    try:
+        time = Truth(scene).first_contact()
+    except UndecidedError:
+        return None
+    with mpmath.workdps(DIGITS):
+        tiny = mpmath.mpf(10) ** -(DIGITS - 20)
+        if bounds is None:
+            return None if time is None else f"none, but they meet at {time} after moves {moves}"
+        for bound in (bounds.low, bounds.high):
+            if bound is not None:
+                bound.refine_to(rational(Fraction(1, 10**DIGITS)))
+        if time is not None and time < real(bounds.low.low) - tiny:
+            return f"{bounds}, but they meet at {time} after moves {moves}"
+        if bounds.high is not None and (time is None or time > real(bounds.high.high) + tiny):
+            return f"{bounds}, but they meet at {time} after moves {moves}"
+    return None
+
+
+def _moved_path(body: Body, move: Point | None) -> Body:
+    """Return a body whose path is moved, without a stated error."""
+    motion = body.motion
+    if move is None or not isinstance(motion, PosePath):
+        return body
+    poses = [(x + move[0], y + move[1], angle) for x, y, angle in motion._poses]
+    fitted = Fraction(1, 1000)  # of polynomials of high degrees
+    return body.with_motion(PosePath(motion.times, poses, error=fitted, place_error=fitted))
 
 
 def wrong_at_the_start(case: Stated) -> Wrong:

@@ -137,6 +137,8 @@ def test_neighbours_agree_exactly():
         ),
         ([2, 2], [(0, 0, 0)], {}, "times increase: 2, then 2"),
         ([0, 1], [(0, 0)], {}, "piece 0: a pose is x, y and an angle"),
+        ([0, 1], ["012"], {}, "piece 0: a pose is x, y and an angle: '012'"),
+        ("01", [(0, 0, 0)], {}, "the times of a path are a list of numbers: '01'"),
         ([0, 1], [(0, 0, 0)], {"error": 0}, "an error is positive: 0"),
         ([0, 1], [(0, 0, 0)], {"place_error": -1}, "a place_error is not negative: -1"),
         (
