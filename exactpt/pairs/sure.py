@@ -59,7 +59,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias, final
 
 from exactpt.geometry.polygon import is_convex
 from exactpt.geometry.predicates import Point, orientation
@@ -91,12 +91,12 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     if margin <= 0:
         return squared_distance(a, b, t) <= margin * margin
     p, q = a._at(t), b._at(t)
-    least = margin * margin
     first, second = convex_parts(a, p), convex_parts(b, q)
-    if any(overlap_everywhere(c, d, least) for c in first for d in second):
+    if any(overlap_everywhere(c, d, margin) for c in first for d in second):
         return True
     if len(first) == len(second) == 1:
         return False
+    least = margin * margin
     return (
         any(_is_deep(v, b, q, least) for v in p)
         or any(_is_deep(v, a, p, least) for v in q)
@@ -104,7 +104,28 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     )
 
 
-def convex_parts(body: Body, points: Sequence[Point]) -> list[Sequence[Point]]:
+@final
+class ConvexPart(NamedTuple):
+    """A convex set that a body contains: a point, a segment or a polygon.
+
+    Attributes:
+        corners: its corners, in order.
+        low: the least x and y of a corner.
+        high: the largest x and y of a corner.
+    """
+
+    corners: Sequence[Point]
+    low: Point
+    high: Point
+
+    @classmethod
+    def of(cls, corners: Sequence[Point]) -> ConvexPart:
+        """Return the part with these corners."""
+        xs, ys = zip(*corners, strict=True)
+        return cls(corners, (min(xs), min(ys)), (max(xs), max(ys)))
+
+
+def convex_parts(body: Body, points: Sequence[Point]) -> list[ConvexPart]:
     """Return convex sets that a body contains: itself if it is convex, else its edges.
 
     Args:
@@ -115,22 +136,27 @@ def convex_parts(body: Body, points: Sequence[Point]) -> list[Sequence[Point]]:
         is_whole = not body.has_rings and is_convex(points)
     else:
         is_whole = body.size <= 2
-    return [points] if is_whole else list(_segments(body, points))
+    return [ConvexPart.of(part) for part in ([points] if is_whole else _segments(body, points))]
 
 
-def overlap_everywhere(p: Sequence[Point], q: Sequence[Point], least: QQ) -> bool:
+def overlap_everywhere(p: ConvexPart, q: ConvexPart, depth: QQ) -> bool:
     """Return True if two convex sets overlap by a length in every direction.
 
     Args:
-        p: the corners of one of them, in order.
-        q: those of the other.
-        least: the square of the length, which is positive.
+        p: one of them.
+        q: the other one.
+        depth: the length, which is positive.
     """
-    if len(p) == len(q) == 1:
+    for k in (0, 1):  # directions along the axes need no products, and refuse most pairs
+        if p.high[k] - q.low[k] < depth or q.high[k] - p.low[k] < depth:
+            return False
+    if len(p.corners) == len(q.corners) == 1:
         return False
+    least = depth * depth
     return all(
         overlap > 0 and overlap * overlap >= least * (x * x + y * y)
-        for x, y, overlap in (*_overlaps(p, q), *_overlaps(q, p))
+        for two in ((p.corners, q.corners), (q.corners, p.corners))
+        for x, y, overlap in _overlaps(*two)
     )
 
 
