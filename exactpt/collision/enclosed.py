@@ -16,8 +16,9 @@ given bodies. Two bodies with e_i + e_j = 0, and a body and itself, touch at a t
 **At the start** of the scene the bounds are equal if a contact there is certain. A touch or an
 overlap of the given bodies is not enough. Let s_i be the error of body i at the start where it is
 known best (`exactpt.motion.displacement.placed_at`). If its formula has the angle 0 there, s_i
-is only what is assumed of it: what a caller stated (`PosePath.with_place_error`), and what closing
-up a curve changed. Errors of fitting are not in it: the body is put where the formula puts it.
+is only its assumed error: the bound that a caller stated (`PosePath.with_place_error`), and the
+jumps of a curve that were closed. Errors of fitting are not in it: the body is put where the
+formula puts it.
 Otherwise s_i = e_i. The contact is certain if and only if the true bodies touch wherever they are
 within these errors: after every rigid move by them. `exactpt.pairs.sure.surely_meet` proves it from
 the overlap, which must be at least s_i + s_j (the radii count as overlap); for convex bodies its
@@ -152,7 +153,7 @@ class _Start(NamedTuple):
 
     Attributes:
         possible: the names of the pairs that may touch there.
-        is_certain: whether one of them is sure to.
+        is_certain: True if one of them certainly touches.
     """
 
     possible: tuple[tuple[str, str], ...]

@@ -14,16 +14,16 @@ ulps are allowed; a larger difference is refused, for nobody knows which of the 
 (Of 150 random curves of each of the classes `CubicSpline`, `PchipInterpolator`,
 `Akima1DInterpolator` and `CubicHermiteSpline`, none differs by more than 2.2 ulps.)
 
-**What closing up changes.** Let f_i be piece i as given, g_i as closed up, and j_i the jump
+**The change by closing up.** Let f_i be piece i as given, g_i as closed up, and j_i the jump
 from the end of f_(i-1) to the beginning of f_i. The piece keeps its shape, so g_i = f_i - S_i with
 a constant S_i. The beginning of g_i is the end of g_(i-1):
 
     f_i - S_i = (f_i - j_i) - S_(i-1) there, so S_i = S_(i-1) + j_i, and S_0 = 0.
 
 So the curve closed up differs from the given one by the running sum S_i of the jumps, in all of
-piece i, and by at most the largest |S_i| anywhere. This is no error of fitting: a caller who means
-the curve as given does not get it, from the first jump on. It belongs to what is stated about
-the curve, and counts at every time.
+piece i, and by at most the largest |S_i| anywhere. This is not an error of fitting: a caller who
+means the curve as given does not get it, from the first jump on. It is a stated error of the curve,
+and counts at every time.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def closed_curve(curve: PiecewisePolynomial, columns: Sequence[str]) -> ClosedCu
         columns: the names of its columns, for messages.
 
     Raises:
-        InputError: if it has other columns, is no piecewise polynomial in powers of the time,
+        InputError: if it has other columns, is not a piecewise polynomial in powers of the time,
             repeats itself, has a coefficient or a breakpoint that is not a finite number, or jumps.
     """
     _check_form(curve, len(columns))
@@ -187,7 +187,7 @@ class _Pieces:
 
 
 def _check_form(curve: PiecewisePolynomial, columns: int) -> None:
-    """Refuse a curve whose attributes mean something else than powers of the time in pieces."""
+    """Refuse a curve whose attributes do not describe powers of the time in pieces."""
     if hasattr(curve, "c") and not hasattr(curve, "x"):
         raise InputError(
             f"a curve without breakpoints x: {shorten(curve)}; of a B-spline take "

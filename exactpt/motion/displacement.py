@@ -55,7 +55,7 @@ def displacement(body: Body, start: QQ, end: QQ) -> QQ:
 
     At most 1 + 2^-20 times the largest distance from the pivot (of vertices that deform along
     polynomials: times that of their Bernstein coefficients) times the error of the angle, and the
-    place error of a path or the error of a spline; 0 if the motion is another one.
+    place error of a path or the error of a spline; 0 for all other motions.
     """
     motion = body.motion
     if isinstance(motion, Spline):

@@ -6,12 +6,12 @@ proves the error of any pieces.
 **Proved and assumed errors.** A path has three motions: the rational pieces, the polynomials that
 are its poses, and the true motion that a caller means. From the pieces to the poses there is an
 error of fitting, which is proved, and is 0 where the fit is exact. From the poses to the true
-motion there is what the caller states, which is assumed, and counts at every time:
+motion there is an error that the caller states. It is assumed, and counts at every time:
 
 * of the translation, the bounds given to `PosePath.with_place_error`, and the jumps of a curve that
-  were closed (`exactpt.motion.curve`). A path keeps one number P for both errors, so the assumed
-  part is what fitting leaves of it: P less the largest proved distance of the pieces from the
-  poses. (P is at least the sum of the two, so this is at least what was stated.)
+  were closed (`exactpt.motion.curve`). A path keeps one number P for both errors. So the assumed
+  part is P less the largest proved distance of the pieces from the poses. (P is at least the sum of
+  that distance and the stated error, so this part is at least the stated error.)
 * of the angle, the jumps that were closed, and the rounding of 2 pi where headings were unwrapped.
   A path keeps this part of `error` by itself, and fits its pieces within the rest of `error`.
 """
@@ -64,8 +64,8 @@ class PosePath(Pieces):
         poses: m triples x, y, angle: polynomials in the time since the piece began.
         error: the largest error of the angle, in radians.
         place_error: the largest error of the translation. If it is 0, x and y are taken as they
-            are, of a degree of at most 3; else they are fitted by cubics. Of it, what the fit does
-            not need counts as the caller's statement (`assumed_place_error`).
+            are, of a degree of at most 3; else they are fitted by cubics. The part that the fit
+            does not need counts as a stated error (`assumed_place_error`).
 
     Raises:
         InputError: if an argument is invalid, the path jumps, or more than 100,000 pieces are
@@ -253,7 +253,7 @@ class PosePath(Pieces):
             ramp: the part of the duration between two samples in which x, y and the angle speed up
                 at a constant rate, and that in which they slow down, at most 1/2: trapezoidal
                 profiles. With 0 rates are constant between samples.
-            unwrap: whether each angle stands for a heading, which full turns do not change: the
+            unwrap: True if each angle stands for a heading, which full turns do not change: the
                 body turns to it by at most pi. Of ``error``, at most a thousandth is needed for
                 2 pi as a rational number.
             error: see `PosePath`.
@@ -380,7 +380,7 @@ class PosePath(Pieces):
         return fraction(self._assumed_place_error())
 
     def _assumed_place_error(self) -> QQ:
-        """Return what is left of the place error beside the proved distance from the poses."""
+        """Return the place error less the proved distance of the pieces from the poses."""
         if not self._place_error:
             return QQ(0)
         spans, k, most = self._spans(), 0, QQ(0)

@@ -26,10 +26,10 @@ and B by e_B n. These are rigid moves by the errors. Then g'(n) = g(n) - E < -r:
 than r apart. So an overlap of convex bodies is certain if and only if it is one after every rigid
 move by the errors; the first condition of the three is this one with m <= 0.
 
-*The least overlap.* If g >= m > 0 everywhere, the disc of radius m around 0 is in P - Q, which is a
-convex polygon then. Its distance from 0 is that of an edge; an edge of P - Q is parallel to one of
-P or of Q. So normals of edges of P and of Q, on both sides of a segment, are the only directions
-that are tested. If P - Q has no area, they include one with g(n) <= 0, unless both are points.
+*The least overlap.* If g >= m > 0 everywhere, P - Q is a convex polygon that contains the disc of
+radius m around 0. The point of its boundary that is nearest to 0 is on an edge, and an edge of
+P - Q is parallel to one of P or of Q. So only normals of edges of P and of Q are tested, on both
+sides. If P - Q has no area, they include one with g(n) <= 0, unless both are points.
 
 *A point in both.* Let x be in A at a distance a from its boundary, and in B at a distance b, with
 a + b >= m; on a chain the distance is 0. First let both be polygons with a, b > 0. For w in the
@@ -143,8 +143,8 @@ def overlap_everywhere(p: ConvexPart, q: ConvexPart, depth: QQ) -> bool:
     """Return True if two convex sets overlap by a length in every direction.
 
     Args:
-        p: one of them.
-        q: the other one.
+        p: a convex set.
+        q: a convex set.
         depth: the length, which is positive.
     """
     for k in (0, 1):  # directions along the axes need no products, and refuse most pairs

@@ -38,7 +38,7 @@ from exactpt.scene.json_values import (
 from exactpt.scene.scene import Scene
 
 _RECORDS: Final = ("spin", "path", "spline")
-"""The keys that may stand beside the pieces of a motion, one at most: what the pieces follow."""
+"""The records that may stand beside the pieces of a motion, one at most."""
 
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:

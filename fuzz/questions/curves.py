@@ -1,9 +1,9 @@
-"""Motions along curves of SciPy: what is refused, and how far a motion is from the given curve.
+"""Motions along curves of SciPy: which are refused, and how far a motion is from the given curve.
 
 A curve is random polynomials, of which each begins where the one before ends, but for some ulps of
 the largest term there, or for a real jump. It is evaluated here as it is given, with its jumps.
 The motion of `spline` or `PosePath.of_curve` must be within its errors of that, and the errors must
-be what was asked for and the largest running sum of the jumps.
+be the required one and the largest running sum of the jumps.
 """
 
 from __future__ import annotations

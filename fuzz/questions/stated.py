@@ -1,6 +1,6 @@
 """Contacts at the start of bodies whose places are known within a stated error.
 
-**The law.** An answer at the start is certain only if it is so after every rigid move by the
+**The law.** A result at the start is certain only if it is so after every rigid move by the
 stated errors. Let E be the sum of the errors of two bodies. Moves of both by at most their errors
 move one against the other by any vector of at most the length E, so only this one is moved here, by
 E in the direction of normals of edges and in directions all around. After each of these moves the
@@ -8,7 +8,7 @@ bodies must touch, by the definition of `fuzz.questions.reference`.
 
 For convex bodies at places with rational normals the law holds in the other direction, too. If the
 bodies overlap by E or more in the direction of every normal of an edge, they touch after all of
-these moves (see `exactpt.pairs.sure`), and the answer must be certain. So with convex bodies
+these moves (see `exactpt.pairs.sure`), and the result must be certain. So with convex bodies
 "certain" and "touches after each of these moves" are the same.
 
 Scenes are made with the places and the errors at hand, so nothing is read from a motion: an error
@@ -17,8 +17,8 @@ from the start in all ways that have the angle 0 there; the scene begins with th
 error may be at one body or at both. Bodies touch, overlap by less than E, by E and by more, are
 inside each other, or are a little apart.
 
-**Later** the law says: with both bodies moved by constant vectors of the lengths of their errors,
-their first contact is between the bounds. It is computed by `fuzz.questions.true_turns`.
+**Later**, if both bodies are moved by constant vectors of the lengths of their errors, their first
+contact is between the bounds. It is computed by `fuzz.questions.true_turns`.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ class Stated(NamedTuple):
 
 
 class Wrong(NamedTuple):
-    """The kind of a case, and the fault of its answer; None without one."""
+    """The kind of a case, and the fault of its result; None without one."""
 
     kind: str
     fault: str | None
@@ -165,14 +165,14 @@ def wrong_after_moves(random: Random, case: Stated) -> str | None:
     with mpmath.workdps(DIGITS):
         tiny = mpmath.mpf(10) ** -(DIGITS - 20)
         if bounds is None:
-            return None if time is None else f"none, but they meet at {time} after moves {moves}"
+            return None if time is None else f"none, but they touch at {time} after moves {moves}"
         for bound in (bounds.low, bounds.high):
             if bound is not None:
                 bound.refine_to(rational(Fraction(1, 10**DIGITS)))
         if time is not None and time < real(bounds.low.low) - tiny:
-            return f"{bounds}, but they meet at {time} after moves {moves}"
+            return f"{bounds}, but they touch at {time} after moves {moves}"
         if bounds.high is not None and (time is None or time > real(bounds.high.high) + tiny):
-            return f"{bounds}, but they meet at {time} after moves {moves}"
+            return f"{bounds}, but they touch at {time} after moves {moves}"
     return None
 
 
@@ -187,7 +187,7 @@ def _moved_path(body: Body, move: Point | None) -> Body:
 
 
 def wrong_at_the_start(case: Stated) -> Wrong:
-    """Compare the answer at the start with the bodies after moves by the stated errors."""
+    """Compare the result at the start with the bodies after moves by the stated errors."""
     found = first_contact_enclosed(case.scene)
     again = Scene.from_json(to_json(case.scene))
     is_certain = found is not None and found.high == case.scene.start
@@ -231,7 +231,7 @@ def _path(
         path = PosePath([start, end], [([x, vx], [y, vy], 0)])
     elif kind == "bends":
         path = PosePath([start, end], [([x, vx, 1], [y, 0, vy], [0, turn, 1])], error="1/1000")
-    elif kind == "before":  # the scene begins later than the path, where two pieces meet
+    elif kind == "before":  # the scene begins later than the path, at the end of a piece
         poses: list[Any] = [([x - vx, vx], y, [-turn, turn]), ([x, vy], y, [0, turn])]
         path = PosePath([start - 1, start, end], poses, error="1/1000")
     elif kind == "fitted":  # by cubics that are exact where they begin
