@@ -14,6 +14,7 @@ from typing import Final
 import click
 
 import exactpt
+from exactpt.brief import cut
 from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.terminal import (
     drop_standard_output,
@@ -29,7 +30,7 @@ __all__ = ["all_commands", "cli", "main"]
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; code 1 is set by commands: a contact (collide --exit-code), or a failed check."""
 LONGEST: Final = 5000
-"""Maximum number of characters of a message: more than the paths of most systems have."""
+"""Maximum number of characters of a message; a word of it has at most those of `brief.LONGEST`."""
 
 
 _MODULES: Final = {
@@ -154,10 +155,9 @@ def _where_to_look(error: click.ClickException) -> str:
 
 
 def _cut(message: str) -> str:
-    """Return a message that repeats an argument, cut in the middle if it is too long."""
-    if len(message) <= LONGEST:
-        return message
-    return f"{message[: LONGEST - 100]}...{message[-90:]}"
+    """Return a message in which each word of an argument, and the whole, is not too long."""
+    words = " ".join(map(cut, message.split(" ")))
+    return cut(words, LONGEST)
 
 
 def main(

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
+from exactpt.brief import cut
 from exactpt.errors import printable
 from exactpt.kernel.numbers import shorten
 
@@ -171,8 +172,8 @@ def _when(time: AlgebraicNumber) -> str:
 
 
 def name_in_words(name: str) -> str:
-    """Return a name; quoted and escaped if it contains unprintable characters."""
-    return name if name.isprintable() else shorten(name)
+    """Return a name, cut if it is long; quoted and escaped if a character is unprintable."""
+    return cut(name) if name.isprintable() else shorten(name)
 
 
 def event_in_words(event: Event) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from exactpt.brief import cut
 from exactpt.cli.options import (
     QUIET,
     RATIONAL,
@@ -156,8 +157,9 @@ class _Verdict:
     why: str = ""
 
     def lines(self) -> list[str]:
-        """Return the verdict in words."""
-        return [self.statement] + ([f"cgal_check {self.by_cgal}"] if self.by_cgal else [])
+        """Return the verdict in words, in which long names are cut."""
+        said = [self.statement] + ([f"cgal_check {self.by_cgal}"] if self.by_cgal else [])
+        return [" ".join(map(cut, line.split(" "))) for line in said]
 
     def to_json(self) -> dict[str, object]:
         """Return the verdict as a JSON object, see docs/format.md."""
