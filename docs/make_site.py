@@ -140,7 +140,8 @@ def _public() -> Iterator[str]:
     """The public names of `exactpt`, each with a link to where it is documented."""
     import exactpt
 
-    for name in sorted(exactpt.__all__, key=str.lower):
+    public = [name for name in dir(exactpt) if name[0] != "_" and name not in ("arrays", "batch")]
+    for name in sorted(public, key=str.lower):
         thing = getattr(exactpt, name)
         module = getattr(thing, "__module__", None)
         first = (thing.__doc__ or "").strip().partition("\n")[0]

@@ -1,7 +1,7 @@
 """Subinterpreters: refused on import, as GMP's and numpy's modules do not support them.
 
 Imported in a second interpreter of a process, gmpy2 shares its types between both: the process
-crashes when one of them ends. numpy is loaded once in a process and fails then.
+crashes when one of them ends. numpy cannot be loaded twice in a process.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ def refuse_subinterpreters() -> None:
     """Check that this is the main interpreter of the process.
 
     Raises:
-        ImportError: if it is another one.
+        ImportError: if it is a subinterpreter.
     """
     if not _is_main():
         raise ImportError(

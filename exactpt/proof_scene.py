@@ -48,7 +48,7 @@ class Work:
 
     def __init__(self, left: int) -> None:
         self.left = left
-        # What is computed once in each check, so that no other check pays for it.
+        # Results that are computed once in each check: no other check profits from them.
         self.turn = lru_cache(100_000)(counted_turn)
         self.pi_bounds = lru_cache(100)(pi_by_machin)
 
@@ -57,7 +57,7 @@ WORK = ContextVar[Work | None]("WORK", default=None)  # of this thread's check
 
 
 def spend(products: int) -> None:
-    """Count some work of this check; outside of a check there is no limit."""
+    """Count some work of this check; outside of a check nothing is counted."""
     work = WORK.get()
     if work is not None:
         work.left -= products

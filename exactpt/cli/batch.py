@@ -138,7 +138,7 @@ def _interrupted(output: Path, done: int, whole: int) -> str:
     journal = output.with_name(f"{output.name}.journal")
     if not journal.exists():
         return "exactpt: interrupted: there is no result yet"
-    share = f"{100 * done // whole}% of the input" if done else "what was done before"
+    share = f"{100 * done // whole}% of the input" if done else "the part done before"
     return (
         f"exactpt: interrupted: {share} is done, in {output.name}.part and {journal.name}; "
         f"the same command goes on from there"

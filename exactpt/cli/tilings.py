@@ -141,14 +141,14 @@ def _files_of_proof(scene: Path, proof: Path | None) -> tuple[Path, Path] | None
 
 @dataclass(frozen=True)
 class _Verdict:
-    """What two checkers say of a proof.
+    """The verdict of two checkers about a proof.
 
     Attributes:
         accepted: whether both accept it.
-        statement: what is proved, or why it is rejected, by the checker in Python.
-        by_cgal: what `cgal_check` says of that: "agrees", or "DISAGREES: ..."; None if it is not
+        statement: the proved statement, or the reason of the rejection, by the checker in Python.
+        by_cgal: the verdict of `cgal_check`: "agrees", or "DISAGREES: ..."; None if it is not
             installed.
-        why: why it is not.
+        why: the reason why it is not found.
     """
 
     accepted: bool

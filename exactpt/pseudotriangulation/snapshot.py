@@ -64,7 +64,7 @@ class Node:
 
 
 def _json_of(value: Fraction | AlgebraicNumber) -> object:
-    """Return a rational number as text, another one as `AlgebraicNumber.to_json` does."""
+    """Return a rational number as text, an irrational number by `AlgebraicNumber.to_json`."""
     return value.to_json() if isinstance(value, AlgebraicNumber) else str(rational(value))
 
 
@@ -147,20 +147,6 @@ class Snapshot:
         time = cut(str(self._at) if self._time is None else str(self._time), 60)
         return f"<Snapshot of the tiling {self.tiling} at t = {time}: {counts}>"
 
-    def placed_at(self, time: AlgebraicNumber, vertices: Vertices) -> Snapshot:
-        """Return the same tiling with its nodes where they are at an irrational time before."""
-        paths = [
-            path for moving in vertices.bodies for path in moving.body._tracks_just_after(time)
-        ]
-        nodes = [
-            Node(
-                node.body, node.vertex, node._x, node._y,
-                (LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time)),
-            )
-            for node, path in zip(self.nodes, paths, strict=True)
-        ]  # fmt: skip
-        return Snapshot(self._at, self.tiling, tuple(nodes), self.edges, self.faces, time)
-
     @property
     def at(self) -> Fraction | AlgebraicNumber:
         """The time; the tiling is the one at that time itself, or just after an irrational one."""
@@ -233,6 +219,19 @@ def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
         at: the time.
     """
     return _Contraction(vertices, mesh, at).snapshot(name)
+
+
+def placed_at(tiling: Snapshot, time: AlgebraicNumber, vertices: Vertices) -> Snapshot:
+    """Return the same tiling with its nodes where they are at an irrational time before."""
+    paths = [path for moving in vertices.bodies for path in moving.body._tracks_just_after(time)]
+    nodes = [
+        Node(
+            node.body, node.vertex, node._x, node._y,
+            (LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time)),
+        )
+        for node, path in zip(tiling.nodes, paths, strict=True)
+    ]  # fmt: skip
+    return Snapshot(tiling._at, tiling.tiling, tuple(nodes), tiling.edges, tiling.faces, time)
 
 
 @final

@@ -38,7 +38,7 @@ class ReportedContact(NamedTuple):
 
 
 def why_none(contact: Contact) -> str:
-    """Return why there is no tiling at a contact, and what helps."""
+    """Return the reason why a scene has no tiling at a contact, and a remedy."""
     time = f"t = {float(contact.time)!r}"
     if contact.kind != "initial":
         return f"the first contact is at {time}; there is one before it, where run(until=...) stops"

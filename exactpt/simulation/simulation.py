@@ -316,8 +316,8 @@ class Simulation:
     def tiling(self) -> Snapshot:
         """The tiling now: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``.
 
-        At an irrational time of an event it is the tiling just after it. Its ``at`` and the
-        coordinates of its nodes are `AlgebraicNumber` then, and are computed when they are read.
+        At an irrational time of an event it is the tiling just after the event, and its ``at`` and
+        the coordinates of its nodes are of type `AlgebraicNumber`, computed when they are read.
 
         >>> import exactpt
         >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1], [0, 0, "1/2"]))

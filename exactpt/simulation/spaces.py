@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, final
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
-from exactpt.pseudotriangulation.snapshot import snapshot
+from exactpt.pseudotriangulation.snapshot import placed_at, snapshot
 
 if TYPE_CHECKING:
     from exactpt.certificates.queue import EventTime
@@ -50,7 +50,7 @@ class SpaceCache:
             limit = following
         later = _short_between(now, limit)
         tiling = snapshot(kinetic.vertices, kinetic.mesh_now(later), kinetic.name, later)
-        return tiling.placed_at(now, kinetic.vertices)
+        return placed_at(tiling, now, kinetic.vertices)
 
 
 def _short_between(now: AlgebraicNumber, limit: AlgebraicNumber) -> QQ:

@@ -93,12 +93,14 @@ class Film {
     return decimal(time, 1n, -this.timeBits, digits);
   }
 
-  /** The time of a step in words, exactly if that is short. */
+  /** The time of a step in decimals; a short fraction follows. */
   stepText(step) {
     if (step === 0) return `t = ${this.startText}`;
     const { exact } = this.steps[step - 1];
-    if (typeof exact === "string" && exact.length <= 18) return `t = ${exact}`;
-    return `t ≈ ${this.timeText(this.timeOf(step), 12)}`;
+    const isShort = typeof exact === "string" && exact.length <= 18;
+    if (isShort && !exact.includes("/")) return `t = ${exact}`;
+    const decimals = `t ≈ ${this.timeText(this.timeOf(step), 12)}`;
+    return isShort ? `${decimals} (${exact})` : decimals;
   }
 
   /** The exact time of a step: a fraction, or the polynomial of which it is a root. */

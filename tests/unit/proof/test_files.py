@@ -61,6 +61,7 @@ def test_the_checker_imports_nothing_but_the_standard_library():
     assert {m for m in found if m.startswith("exactpt")} == {
         "exactpt",
         "exactpt.extensions",  # of the package itself, as every import of one of its modules
+        "exactpt.interpreters",
         "exactpt.proof_check",
         "exactpt.proof_scene",
     }

@@ -117,7 +117,7 @@ def test_the_contact_is_marked_on_the_boundaries():
 
     assert mark.pixel == frame.window.pixel(QQ(4), QQ(0))
     assert mark.normal == (-1.0, 0.0)
-    assert frame.caption == "first contact at t = 7/2"
+    assert frame.caption == "first contact at t = 3.5"
 
 
 def test_times_without_a_picture():

@@ -219,7 +219,7 @@ def test_plans_change_at_rational_times_before_the_end_only():
         assert simulation.step()
     with pytest.raises(InputError, match="rational times only"):
         simulation.set_motion("low", Translation())
-    with pytest.raises(InputError, match="is not rational: give a time"):
+    with pytest.raises(InputError, match="is not rational: give a rational time after it"):
         simulation.locate((0, 0))
     with pytest.raises(InputError, match="end of the time span"):
         at(simulation, 3).set_motion("low", Translation())
