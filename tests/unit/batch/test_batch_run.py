@@ -448,7 +448,7 @@ def test_a_batch_that_is_interrupted_or_killed_goes_on(tmp_path, how, code):
     assert process.returncode == code
     assert "Traceback" not in reported
     if how == signal.SIGINT:
-        assert "is answered, in answers.jsonl.part and answers.jsonl.journal; the same" in reported
+        assert "is done, in answers.jsonl.part and answers.jsonl.journal; the same" in reported
     assert not out.exists()
     assert chunks_in(journal) >= 2
     summary = run(scenes, out)
