@@ -1,7 +1,7 @@
 """Subinterpreters: refused on import, as GMP's and numpy's modules do not support them.
 
-Imported in a second interpreter of a process, gmpy2 shares its types between both: the process
-crashes when one of them ends. numpy cannot be loaded twice in a process.
+In a second interpreter of a process their import fails, or the process crashes at its end (seen
+with numpy 2 and gmpy2 2.2 in Python 3.11).
 """
 
 from __future__ import annotations

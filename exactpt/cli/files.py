@@ -185,7 +185,7 @@ class _WithFamilies(click.Command):
 
 
 SEED: Final = 4
-"""The seed of a scene if none is given: with it, most families have a first contact later on."""
+"""The seed if none is given: stars and 24 other families have a first contact after the start."""
 
 
 @click.command(cls=_WithFamilies)

@@ -6,8 +6,10 @@ import importlib
 import json
 import locale
 import pickle
+import signal
 import sys
 import threading
+import time
 import warnings
 
 import gmpy2
@@ -21,6 +23,7 @@ import exactpt
 import exactpt.testing
 from exactpt import arrays, batch, check_apart, proof_check
 from exactpt.cli import all_commands
+from exactpt.cli.alarm import time_limit
 from exactpt.scene.generate import generate
 
 COMMANDS = {*all_commands(), "a command that is none"}
@@ -228,3 +231,25 @@ def accepts(checker, proof, work):
         return checker.check(proof.scene, proof.text, work).startswith("accepted")
     except checker.Exhausted:
         return False
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there are no timers")
+def test_a_time_limit_delays_no_timer_of_the_caller():
+    """The caller's timer goes on meanwhile; if it is due at the end, it rings at once."""
+    rung = []
+    before = signal.signal(signal.SIGALRM, lambda *_: rung.append(time.monotonic()))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 100)
+        with time_limit(50):
+            time.sleep(0.2)
+        assert 99 < signal.getitimer(signal.ITIMER_REAL)[0] < 99.85
+
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with time_limit(50):
+            time.sleep(0.3)
+            assert rung == []
+        time.sleep(0.05)
+        assert len(rung) == 1
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
