@@ -1,7 +1,7 @@
 """Subinterpreters: refused on import, as GMP's and numpy's modules do not support them.
 
 In a second interpreter of a process their import fails, or the process crashes at its end (seen
-with numpy 2 and gmpy2 2.2 in Python 3.11).
+with numpy 2.4 and gmpy2 2.3 in Python 3.11).
 """
 
 from __future__ import annotations

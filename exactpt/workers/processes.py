@@ -75,7 +75,8 @@ class _Worker(Generic[Item, Result]):
 def _deaf() -> Iterator[None]:
     """Put off Ctrl-C until the end of the context; processes started in it never receive it.
 
-    They inherit the mask; starting the tracker of resources clears it, so that is done before.
+    They inherit the mask. Starting the tracker of resources unblocks SIGINT and SIGTERM: that is
+    done before, and the caller's mask is put back at the end.
     Here another thread, one of numpy for example, may take the signal, and Python would interrupt
     this one: a process that has been started by half prints a traceback.
     """
@@ -84,9 +85,10 @@ def _deaf() -> Iterator[None]:
         return
     from multiprocessing.resource_tracker import ensure_running  # not on Windows
 
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [])
     ensure_running()
     heard: list[int] = []
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     handler = signal.getsignal(signal.SIGINT)
     replaced = handler is not None and threading.current_thread() is threading.main_thread()
     try:

@@ -7,13 +7,16 @@ import json
 import locale
 import pickle
 import signal
+import subprocess
 import sys
 import threading
 import time
 import warnings
+from pathlib import Path
 
 import gmpy2
 import numpy as np
+import public_calls
 import pytest
 from folding import every
 from process_state import changed, state_of_process, state_of_thread
@@ -231,6 +234,29 @@ def accepts(checker, proof, work):
         return checker.check(proof.scene, proof.text, work).startswith("accepted")
     except checker.Exhausted:
         return False
+
+
+def test_workers_leave_the_signals_blocked_that_a_caller_has_blocked(tmp_path):
+    """The first start of `multiprocessing`'s tracker of resources unblocks SIGINT and SIGTERM."""
+    script = f"""
+import signal, sys
+from pathlib import Path
+sys.path[:0] = {[str(Path(public_calls.__file__).parent)]!r}
+import public_calls
+if __name__ == "__main__":
+    blocked = {{signal.SIGINT, signal.SIGTERM}}
+    signal.pthread_sigmask(signal.SIG_BLOCK, blocked)
+    public_calls.CALLS["batch.run"](public_calls.World(Path({str(tmp_path)!r})))
+    print(signal.pthread_sigmask(signal.SIG_BLOCK, []) == blocked)
+"""
+    (tmp_path / "script.py").write_text(script)
+    root = str(Path(exactpt.__file__).parents[1])
+    done = subprocess.run(
+        [sys.executable, tmp_path / "script.py"], capture_output=True, text=True, check=False,
+        env={"PYTHONPATH": root},
+    )  # fmt: skip
+
+    assert done.stdout == "True\n", done.stderr
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there are no timers")
