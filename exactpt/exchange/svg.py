@@ -1,8 +1,9 @@
 """SVG drawings: outlines of paths and basic shapes are read and written; curves become chords.
 
-svgelements parses the drawing (styles, transforms, copies); the y-axis is flipped to point up.
-Points of curves and transformed points are computed in doubles, which are taken at their exact
-value.
+The structure of a drawing is resolved in `exactpt.exchange.flattening`; svgelements parses the
+outlines that are left. The y-axis is flipped to point up. Points of curves and transformed points
+are computed in doubles, which are taken at their exact value, and scaled exactly to millimetres if
+the drawing has a physical size.
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree as Xml
 
 from exactpt.errors import ExactPTError, InputError
-from exactpt.exchange.drawing import NAMESPACE, read_drawing, valid_text
+from exactpt.exchange.drawing import read_drawing, valid_text
+from exactpt.exchange.flattening import NAMESPACE, OUTLINE, Drawing, Window
+from exactpt.exchange.lengths import Matrix
+from exactpt.exchange.losses import Losses
 from exactpt.exchange.shapes import Shape, nested, rounded_rings
 from exactpt.kernel.numbers import rational, shorten
 
@@ -22,22 +26,27 @@ if TYPE_CHECKING:
     import svgelements
 
     from exactpt.geometry.predicates import Point
+    from exactpt.kernel.numbers import QQ
 
+_SLACK: Final = 1e-9
+"""Relative size of errors of rounding that are allowed: beyond a window, and of a right angle."""
 _MAX_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 _MAX_POINTS: Final = 2_000_000
 """Maximum number of points of a drawing."""
 
 
-def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
-    """Yield the outlines of a drawing, in the units of its ``viewBox``, named by their ``id``.
+def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iterator[Shape]:
+    """Yield the outlines of a drawing, named by their ``id``.
 
-    A closed subpath is a polygon, with the subpaths inside it as holes (even-odd rule); an open
-    one is a line, filled or not. Text and images are left out.
+    They are in millimetres if the drawing has a physical width or height, else in the units of its
+    ``viewBox``; its origin stays. A closed subpath is a polygon, with the subpaths inside it as
+    holes (even-odd rule); an open one is a line, filled or not. Text and images are left out.
 
     Args:
         text: the drawing.
-        tolerance: maximum distance of a chord from its curve, in units of the drawing.
+        tolerance: maximum distance of a chord from its curve, in units of the shapes.
+        losses: data that are left out are added to these.
 
     Raises:
         InputError: if it is not a drawing, or the tolerance is not positive.
@@ -45,12 +54,14 @@ def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise InputError(f"the tolerance is a positive number: {tolerance}")
     left = _MAX_POINTS
-    for i, (name, path) in enumerate(_paths(text)):
+    drawing = read_drawing(text, losses or Losses())
+    tolerance /= float(max(drawing.scale))
+    for i, (name, path) in enumerate(_paths(drawing, tolerance)):
         where = f"outline {i}" + (f" (id {shorten(name)[1:-1]})" if name else "")
         try:
             subpaths = []
             for sub in path.as_subpaths():
-                points = _points(sub, tolerance, left)
+                points = _scaled(_points(sub, tolerance, left), drawing.scale)
                 left -= len(points)
                 subpaths.append((points, sub[-1]))
             yield from _of_subpaths(subpaths, where, name or f"outline {i}")
@@ -79,31 +90,96 @@ def _of_subpaths(
     yield from others
 
 
-def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
-    """Yield the visible outlines with their ids, in user units of the drawing."""
+def _scaled(points: list[Point], scale: tuple[QQ, QQ]) -> list[Point]:
+    """Return points of a drawing in units of the scene."""
+    x_scale, y_scale = scale
+    if x_scale == y_scale == 1:
+        return points
+    return [(x * x_scale, y * y_scale) for x, y in points]
+
+
+def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, svgelements.Path]]:
+    """Yield the outlines of a drawing with their ids, in its units."""
     try:
         import svgelements
     except ImportError:
         raise InputError("this needs svgelements: pip install 'exactpt[svg]'") from None
 
-    root = read_drawing(text)
-    box = root.get("viewBox", "").replace(",", " ").split()
-    if len(box) == 4:  # drawn at this size, one pixel is one unit of the drawing
-        root.set("viewBox", f"0 0 {box[2]} {box[3]}")
-        root.set("width", box[2])
-        root.set("height", box[3])
-    source = io.StringIO(Xml.tostring(root, encoding="unicode"))
+    source = io.StringIO(Xml.tostring(drawing.root, encoding="unicode"))
     try:
-        drawing = svgelements.SVG.parse(source, on_error="raise")
-        for element in drawing.elements():
+        parsed = svgelements.SVG.parse(source, on_error="raise")
+        for element in parsed.elements():
             if isinstance(element, svgelements.Shape):
-                path = svgelements.Path(element)
-                path.reify()
+                number = element.values[OUTLINE]
+                path = _mapped(svgelements.Path(element), drawing.matrices[number], tolerance)
+                _check_windows(path, drawing.windows[number])
                 yield element.id or "", path
     except (ExactPTError, MemoryError):
         raise
     except Exception as error:  # any error that a damaged drawing causes in the parser
-        raise InputError(f"not a drawing that can be read: {_reason(root, error)}") from None
+        reason = _reason(drawing.root, error)
+        raise InputError(f"not a drawing that can be read: {reason}") from None
+
+
+def _mapped(path: svgelements.Path, matrix: Matrix, tolerance: float) -> svgelements.Path:
+    """Return the image of a path in the drawing.
+
+    svgelements maps the two axes of an ellipse. Their images are its axes only if they are
+    perpendicular; the arcs of other ellipses become chords before they are mapped.
+    """
+    import svgelements
+
+    if matrix == Matrix():
+        return path
+    segments: list[svgelements.PathSegment] = []
+    for segment in path:
+        if isinstance(segment, svgelements.Arc) and not _keeps_axes(segment, matrix):
+            count = _chord_count(segment, tolerance / (matrix.stretch or 1.0))
+            ends = [segment.point(k / count) for k in range(1, count)]
+            ends.append(segment.end)
+            starts = [segment.start, *ends]
+            segments += [svgelements.Line(*both) for both in zip(starts, ends, strict=False)]
+        else:
+            segments.append(segment)
+    image = svgelements.Path(*segments) * svgelements.Matrix(*matrix)
+    image.reify()
+    image.id = path.id
+    return image
+
+
+def _keeps_axes(arc: svgelements.Arc, matrix: Matrix) -> bool:
+    """Return True if the images of the axes of an ellipse are perpendicular."""
+    center = complex(arc.center)
+    axes = [complex(end) - center for end in (arc.prx, arc.pry)]
+    x, y = (
+        complex(matrix.a * v.real + matrix.c * v.imag, matrix.b * v.real + matrix.d * v.imag)
+        for v in axes
+    )
+    return abs((x * y.conjugate()).real) <= _SLACK * abs(x) * abs(y)
+
+
+def _check_windows(path: svgelements.Path, windows: Sequence[Window]) -> None:
+    """Refuse an outline that a window cuts.
+
+    Raises:
+        InputError: if it is not all inside.
+    """
+    import svgelements
+
+    for window in windows:
+        inverse = window.matrix.inverse()
+        box = None if inverse is None else (path * svgelements.Matrix(*inverse)).bbox()
+        slack = _SLACK * (window.width + window.height)
+        is_inside = box is not None and (
+            min(box[0], box[1]) >= -slack
+            and box[2] <= window.width + slack
+            and box[3] <= window.height + slack
+        )
+        if not is_inside:
+            raise InputError(
+                f"outline {shorten(path.id or '')} is not all inside of {window.name}, which "
+                "cuts it: cut it in the drawing, or remove that element"
+            )
 
 
 def _reason(root: Xml.Element, error: Exception) -> str:
@@ -166,7 +242,10 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
 
 
 def svg_of(shapes: Iterable[Shape]) -> str:
-    """Shapes as a drawing of paths with ids; coordinates are the nearest doubles."""
+    """Shapes as a drawing of paths with ids; coordinates are the nearest doubles.
+
+    A unit is a millimetre, so that `shapes_of` gives the same numbers back.
+    """
     drawn = [
         (
             shape,
@@ -180,6 +259,8 @@ def svg_of(shapes: Iterable[Shape]) -> str:
     root = Xml.Element("svg", xmlns=NAMESPACE)
     if all(map(math.isfinite, box)):
         root.set("viewBox", " ".join(map(repr, box)))
+        root.set("width", f"{box[2]!r}mm")
+        root.set("height", f"{box[3]!r}mm")
     for shape, rings in drawn:
         end = "" if shape.kind == "line" else " Z"
         Xml.SubElement(

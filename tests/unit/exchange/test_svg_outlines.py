@@ -3,6 +3,7 @@
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from folding import every
 from hypothesis import given
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from exactpt import Body, InputError, Scene
 from exactpt.exchange.bodies import scene_of
+from exactpt.exchange.lengths import matrix_of
 from exactpt.exchange.shapes import nested, shapes_at
 from exactpt.exchange.svg import shapes_of, svg_of
 from exactpt.kernel.numbers import QQ
@@ -200,3 +202,26 @@ def test_there_and_back():
 
     assert again.at(0) == scene.at(0)
     assert [body.closed for body in again.bodies] == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    "transform", ["skewX(-20)", "scale(1 3) rotate(40)", "matrix(2 1 0 1 5 5)"]
+)
+@pytest.mark.parametrize("turn", [0, 25])
+def test_an_ellipse_that_is_sheared_stays_within_the_tolerance(transform, turn):
+    """A point p of the image is M q with |q| = 1; chords add an error of at most the tolerance.
+
+    svgelements maps the axes of the ellipse, whose images are not perpendicular: the image had
+    a wrong area.
+    """
+    matrix = np.array(matrix_of(transform, "g")).reshape(3, 2).T
+    linear, moved = matrix[:, :2], matrix[:, 2]
+    arcs = f'<path d="M1 0A1 1 {turn} 0 1 -1 0A1 1 {turn} 0 1 1 0z" transform="{transform}"/>'
+
+    corners = np.array(points(arcs, tolerance=1e-3)) * (1, -1)
+
+    before = np.linalg.solve(linear, (corners - moved).T)
+    assert np.hypot(*before) == pytest.approx(np.ones(len(corners)))
+    around = np.array([(math.cos(k / 500), math.sin(k / 500)) for k in range(3142)])
+    curve = (around @ linear.T + moved).tolist()
+    assert farthest(curve, [*corners.tolist(), corners[0].tolist()]) <= 1e-3 * (1 + 1e-6)
