@@ -39,6 +39,9 @@ from exactpt.scene.scene import Scene
 
 _RECORDS: Final = ("spin", "path", "spline")
 """The records that may stand beside the pieces of a motion, one at most."""
+_LONGEST_NAME: Final = 100
+"""Number of characters of an integer that is a name."""
+_CONVERT: Final = "exactpt convert makes a scene of such a file"
 
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:
@@ -51,8 +54,8 @@ def load(path: Path, max_bytes: int | None = None) -> Scene:
     try:
         return loads(text)
     except InputError as error:
-        other = path.suffix.lower() in (".geojson", ".mfjson", ".svg", ".wkt")
-        advice = "; exactpt convert makes a scene of such a file" if other else ""
+        is_other = path.suffix.lower() in (".geojson", ".mfjson", ".svg", ".wkt")
+        advice = f"; {_CONVERT}" if is_other and _CONVERT not in str(error) else ""
         raise InputError(f"{path}: {error}{advice}") from None
 
 
@@ -85,7 +88,17 @@ def from_json(data: Mapping[str, object]) -> Scene:
     return loads(text)
 
 
+def _check_kind(data: Json) -> None:
+    """Refuse GeoJSON, moving features and TopoJSON, whose objects have a type."""
+    kind = data.get("type") if isinstance(data, dict) and "exactpt" not in data else None
+    if kind == "Topology":
+        raise InputError("not a scene: TopoJSON is not supported")
+    if isinstance(kind, str) and not isinstance(kind, Number):
+        raise InputError(f'scene: the key "exactpt" is missing; {_CONVERT}')
+
+
 def _scene(data: Json) -> Scene:
+    _check_kind(data)
     top = an_object(data, "scene", required=["exactpt", "time", "bodies"])
     if top["exactpt"] != Number(VERSION) or not isinstance(top["exactpt"], Number):
         raise InputError(
@@ -99,6 +112,8 @@ def _scene(data: Json) -> Scene:
 
 def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
+    if isinstance(data, dict) and "name" in data:
+        data = {**data, "name": _name(data["name"])}
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
     allowed = {
@@ -114,7 +129,7 @@ def _body(data: Json, index: int) -> Body:
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
-        raise InputError(f'{where}: "name": not a text: {shown(name)}')
+        raise InputError(f'{where}: "name": expected a text or an integer, got {shown(name)}')
     if sum(key in body for key in ("vertices", "keyframes", "parts")) != 1:
         raise InputError(f'{where}: needs either "vertices" or "keyframes" or "parts"')
     if "holes" in body and "vertices" not in body:
@@ -139,6 +154,13 @@ def _body(data: Json, index: int) -> Body:
     vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)
     holes = _holes(body, where)
     return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius, properties=more)
+
+
+def _name(data: Json) -> Json:
+    """Return a name; an integer is the text of its digits."""
+    if not isinstance(data, Number) or len(data) > _LONGEST_NAME:
+        return data
+    return str(data) if data.removeprefix("-").isdigit() else data
 
 
 def _part(data: Json, where: str) -> dict[str, object]:

@@ -255,7 +255,7 @@ WRONG = [
     # names
     ((b, BLOB, "name"), "box", ["'box'", "taken"]),
     ((b, BOX, "name"), "", ["body", "name", "''"]),
-    ((b, BOX, "name"), 5, ["body", "name", "5"]),
+    ((b, BOX, "name"), 1.5, ["body", "name", "1.5"]),
     ((b, BOX, "name"), None, ["body 0", "name", "null"]),
     ((b, BOX, "name"), ["box"], ["body 0", "name", "box"]),
     # the time span
