@@ -70,6 +70,11 @@ _FEW = 3
     help="Mend polygons that are not valid by shapely's make_valid, with a message for each.",
 )
 @click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
+@click.option(
+    "--strict",
+    is_flag=True,
+    help="Refuse to leave out data, such as heights; without it they are named.",
+)
 @QUIET
 @bounded
 def convert(
@@ -82,6 +87,7 @@ def convert(
     parts: Literal["keep", "split"],
     repair: bool,
     skip_invalid: bool,
+    strict: bool,
     quiet: bool,
     max_seconds: float | None,
 ) -> int:
@@ -99,7 +105,12 @@ def convert(
 
     Numbers in GeoJSON, MF-JSON and WKT are read as exact decimals. Points of an SVG are computed in
     doubles, which are taken at their exact value, and its y-axis is flipped to point up, as in a
-    scene. Shapes are written as the doubles nearest to the exact positions.
+    scene; they are in millimetres if the drawing has a physical size. Shapes are written as the
+    doubles nearest to the exact positions.
+
+    Data that would change a shape or a motion and are not understood are an error. Other data that
+    the result has no place for are named on standard error ("lost: crs, z of 40 points"); with
+    --strict they are an error.
 
     \b
     Examples:
@@ -109,7 +120,8 @@ def convert(
       exactpt convert scene.json then.geojson --at 5/2
       exactpt convert trips.mfjson scene.json
     """
-    from exactpt.exchange.files import holds_scene, read_shapes, write_shapes
+    from exactpt.exchange.files import holds_scene, lost_by_writing, read_shapes, write_shapes
+    from exactpt.exchange.losses import lost_line
 
     keep_input(source, target)
     if time[0] >= time[1]:
@@ -129,15 +141,18 @@ def convert(
             parts=parts,
             repaired=mended.append if repair else None,
             skipped=left_out.append if skip_invalid else None,
+            strict=strict,
             max_bytes=max_bytes(),
         )
         remarks = [*mended, *(f"left out: {line}" for line in left_out)]
+        lost = (*scene.lost, *lost_by_writing(scene, target, at))
+        remarks += [lost_line(lost)] if lost else []
         is_scene = target.suffix.lower() == ".json"
         if is_scene and not quiet:
             remarks += _what_touches(scene)
         if typed("tolerance") and not scene.has_radius and holds_scene(source, max_bytes()):
             raise InputError(f"--tolerance: {source} is a scene, which is read as it is")
-        write_shapes(scene, target, at, tolerance=tolerance)
+        write_shapes(scene, target, at, tolerance=tolerance, strict=strict)
     if not quiet:
         for line in remarks:
             print_error(line)

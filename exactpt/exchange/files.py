@@ -11,9 +11,11 @@ from exactpt.errors import InputError
 from exactpt.exchange import geojson, mfjson, svg, wkt
 from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
 from exactpt.exchange.instants import from_datetime
+from exactpt.exchange.losses import Losses, check_strict
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import shorten
+from exactpt.motion.motions import REST
 from exactpt.motion.shape import listed
 from exactpt.scene.format import loads
 from exactpt.scene.json_values import parse_json
@@ -22,6 +24,7 @@ from exactpt.scene.written import save
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import Rational
+    from exactpt.motion.body import Body
     from exactpt.scene.scene import Scene
 
 Format: TypeAlias = Literal["scene", "geojson", "mfjson", "wkt", "svg"]
@@ -45,6 +48,7 @@ def read_shapes(
     parts: Parts = "keep",
     repaired: Callable[[str], None] | None = None,
     skipped: Callable[[str], None] | None = None,
+    strict: bool = False,
     max_bytes: int | None = None,
 ) -> Scene:
     """Return the scene at rest of a GeoJSON, WKT or SVG file.
@@ -55,19 +59,33 @@ def read_shapes(
     1970-01-01T00:00:00Z.
 
     Decimals in GeoJSON, MF-JSON and WKT are read exactly. In SVG, curves become chords, the y-axis
-    is flipped to point up, and coordinates are the exact values of doubles.
+    is flipped to point up, and coordinates are the exact values of doubles, in millimetres if the
+    drawing has a physical size, else in its own units.
+
+    A part of the file that would change a shape or a motion and is not understood is an error.
+    Other data that a scene has no place for are left out and named in `Scene.lost`; docs/format.md
+    lists them.
+
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> pole = Path(mkdtemp()) / "pole.geojson"
+    >>> _ = pole.write_text('{"type": "Point", "coordinates": [1, 0.1, 7.5]}')
+    >>> shapes = read_shapes(pole)
+    >>> shapes.bodies[0].at(0), shapes.lost
+    ([(Fraction(1, 1), Fraction(1, 10))], ('z of 1 point',))
 
     Args:
         path: a file with a suffix in `ENDINGS`. A scene file is loaded unchanged.
         time: the start and the end of the time span; by default that of moving features, or from
             0 to 1. They may be datetimes (`from_datetime`).
-        tolerance: maximum distance of a chord from its curve, in units of the SVG drawing.
+        tolerance: maximum distance of a chord from its curve in an SVG, in units of the scene.
         holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
         parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
         repaired: called with a message for each polygon that is not valid and is replaced by what
             shapely's make_valid makes of it; if None, none is.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
+        strict: whether data that would be left out are an error.
         max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
     Raises:
@@ -84,23 +102,32 @@ def read_shapes(
     def prefixed(report: Callable[[str], None] | None) -> Callable[[str], None] | None:
         return None if report is None else lambda line: report(f"{file}: {line}")
 
+    losses = Losses()
     try:
         kind = _detected_format(kind, text)
         if kind == "scene":
             return loads(text)
         if kind == "mfjson":
-            return mfjson.scene_of_features(text, time=span, holes=holes, skipped=prefixed(skipped))
-        shapes = _shapes_of(kind, text, tolerance)
-        return scene_of(
-            shapes,
-            time=span or (0, 1),
-            holes=holes,
-            parts=parts,
-            repair=_repair(prefixed(repaired)),
-            skipped=prefixed(skipped),
-        )
+            scene = mfjson.scene_of_features(
+                text, losses, time=span, holes=holes, skipped=prefixed(skipped)
+            )
+        else:
+            scene = scene_of(
+                _shapes_of(kind, text, tolerance, losses),
+                time=span or (0, 1),
+                holes=holes,
+                parts=parts,
+                repair=_repair(prefixed(repaired)),
+                skipped=prefixed(skipped),
+            )
+        if strict:
+            check_strict(losses.texts())
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+    except RecursionError:
+        raise InputError(f"{file}: nested too deeply") from None
+    scene.lost = losses.texts()
+    return scene
 
 
 def _seconds(at: Rational | datetime) -> Rational:
@@ -147,13 +174,14 @@ def _detected_format(kind: Format, text: str) -> Format:
         return kind
     if mfjson.is_moving(data):
         return "mfjson"
-    return "geojson" if geojson.is_type(data.get("type")) else kind
+    is_other = geojson.is_type(data.get("type")) or data.get("type") == "Topology"
+    return "geojson" if is_other else kind
 
 
-def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
+def _shapes_of(kind: Format, text: str, tolerance: float, losses: Losses) -> Iterator[Shape]:
     if kind == "svg":
-        return svg.shapes_of(text, tolerance)
-    return wkt.shapes_of(text) if kind == "wkt" else geojson.shapes_of(text)
+        return svg.shapes_of(text, tolerance, losses)
+    return wkt.shapes_of(text, losses) if kind == "wkt" else geojson.shapes_of(text, losses)
 
 
 def write_shapes(
@@ -162,6 +190,7 @@ def write_shapes(
     at: Rational | AlgebraicNumber | None = None,
     *,
     tolerance: float | None = None,
+    strict: bool = False,
 ) -> None:
     """Write the bodies at a time, as points, lines and polygons; or the scene with its motions.
 
@@ -170,17 +199,40 @@ def write_shapes(
     motions put them, even if they touch or overlap at that time. Of rounded bodies, outlines of
     chords are written, by shapely's buffer (see `Scene.to_shapely`); a scene file has the radii.
 
+    Rings keep the order and the orientation of their vertices. An SVG is in millimetres. Data
+    that a format has no place for are left out: names and properties in WKT, properties in SVG.
+
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from exactpt import Body, Scene
+    >>> file = Path(mkdtemp()) / "pole.wkt"
+    >>> pole = Scene([Body("pole", [(1, "1/3")])])
+    >>> write_shapes(pole, file)
+    >>> file.read_text().strip()
+    'POINT (1.0 0.3333333333333333)'
+    >>> write_shapes(pole, file, strict=True)
+    Traceback (most recent call last):
+        ...
+    exactpt.errors.InputError: ...pole.wkt: lost: name of 1 body; leave out --strict ...
+
     Args:
         scene: the bodies.
         path: a file with a suffix in `ENDINGS`; it is complete or not there.
         at: the time, which may be irrational; by default the start.
         tolerance: maximum distance of a chord from its arc; by default a hundredth of the radius.
+        strict: whether data that would be left out are an error; so are radii, and motions if no
+            time is given.
 
     Raises:
         InputError: if the time is outside the time span, or the file cannot be written.
     """
     file = Path(path)
     kind = _format(file)
+    if strict:
+        try:
+            check_strict(lost_by_writing(scene, file, at))
+        except InputError as error:
+            raise InputError(f"{file}: {error}") from None
     if kind == "scene":
         if at is not None:
             raise InputError(f"{file}: a scene has all times: leave the time away")
@@ -198,3 +250,44 @@ def write_shapes(
         shapes = [outlined(shape, tolerance) for shape in shapes]
     writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
     write_atomically(file, writers[kind](shapes))
+
+
+def lost_by_writing(
+    scene: Scene, path: Path, at: Rational | AlgebraicNumber | None
+) -> tuple[str, ...]:
+    """Return the data that `write_shapes` leaves out, see `Losses.texts`.
+
+    Raises:
+        InputError: if the suffix is unknown.
+    """
+    kind = _format(path)
+    losses = Losses()
+    if kind == "scene":
+        return ()
+    for i, body in enumerate(scene.bodies):
+        if kind != "mfjson" and at is None and _moves(body):
+            losses.count("motion", "body")
+        if kind != "mfjson" and body._radius:
+            losses.count("radius", "body")
+        if not _keeps_name(body.name, i, kind):
+            losses.count("name", "body")
+        if kind in ("wkt", "svg") and body.properties:
+            losses.count("properties", "body")
+        elif str(body.properties.get("name", body.name)) != body.name:
+            losses.count("property name", "body")
+        if kind == "svg" and len(body.parts) > 1:
+            losses.count("unity of the parts", "body")
+    return losses.texts()
+
+
+def _keeps_name(name: str, number: int, kind: Format) -> bool:
+    """Return True if a format gives the name of a body back, by its number in the file."""
+    if kind == "wkt":
+        return name == f"body {number}"
+    return kind != "svg" or svg.valid_text(name) == name
+
+
+def _moves(body: Body) -> bool:
+    """Return True if a body has a motion, or changes its shape."""
+    deforms = any(len(f._coefficients) > 1 for vertex in body.vertices for f in vertex)
+    return body.motion != REST or bool(body.keyframes) or deforms

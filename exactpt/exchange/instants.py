@@ -19,6 +19,11 @@ _DAY: Final = 86_400
 _EPOCH: Final = date(1970, 1, 1)
 
 
+def is_date(text: str) -> bool:
+    """Return True if a text has the form of a date with a time."""
+    return _TEXT.fullmatch(text) is not None
+
+
 def seconds_of(data: Json, where: str) -> QQ:
     """Return the seconds of a date with a time, which may have any number of decimals.
 

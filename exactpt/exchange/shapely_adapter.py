@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from numpy import errstate
 
 from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.exchange.bodies import Holes, Parts, body_of, scene_of
+from exactpt.exchange.losses import Losses
 from exactpt.exchange.shapes import Kind, Shape, rounded, rounded_rings, shapes_at, together
 from exactpt.kernel.numbers import nearest_float, rational, shorten
 
@@ -46,8 +47,24 @@ _KINDS: Final[dict[str, Kind]] = {
 }
 
 
-def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
-    """Return the geometry of a text, its number of points, and the number of coordinates of each.
+class ReadText(NamedTuple):
+    """A geometry that shapely reads from a well-known text.
+
+    Attributes:
+        geometry: the geometry, of doubles.
+        size: its number of points.
+        dimensions: the number of coordinates of each.
+        further: the names of the coordinates beside x and y: "z", "m".
+    """
+
+    geometry: BaseGeometry
+    size: int
+    dimensions: int
+    further: list[str]
+
+
+def read_wkt(text: str, where: str) -> ReadText:
+    """Return the geometry of a text.
 
     Raises:
         InputError: if it is not well-known text, or of a kind that shapely cannot read.
@@ -61,8 +78,16 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
     except NotImplementedError:
         kind = text.split("(", maxsplit=1)[0].strip()
         raise InputError(f"{where}: shapely reads no curves: {shorten(kind)}") from None
-    size = shapely.get_num_coordinates(geometry)
-    return geometry, size, shapely.get_coordinate_dimension(geometry)
+    size = int(shapely.get_num_coordinates(geometry))
+    dimensions = int(shapely.get_coordinate_dimension(geometry))
+    return ReadText(geometry, size, dimensions, _further(geometry) if size else [])
+
+
+def _further(geometry: BaseGeometry) -> list[str]:
+    """Return the names of the coordinates of a geometry beside x and y."""
+    dimensions = int(shapely.get_coordinate_dimension(geometry))
+    has_z = bool(shapely.has_z(geometry) or dimensions == 4)
+    return ["z"] * has_z + ["m"] * (dimensions - 2 - has_z)
 
 
 def shapes_of_geometry(
@@ -142,7 +167,22 @@ def scene_from(
         for i, (name, geometry) in enumerate(named)
         for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
     )
-    return scene_of(shapes, time=time, holes=holes, parts=parts, radius=radius)
+    scene = scene_of(shapes, time=time, holes=holes, parts=parts, radius=radius)
+    scene.lost = _lost_of(geometry for _, geometry in named)
+    return scene
+
+
+def _lost_of(geometries: Iterable[object]) -> tuple[str, ...]:
+    """Return the data of geometries without a place in a scene: z, m, and the number of a crs."""
+    losses = Losses()
+    for geometry in geometries:
+        if isinstance(geometry, BaseGeometry):
+            size = int(shapely.get_num_coordinates(geometry))
+            for key in _further(geometry):
+                losses.count(key, "point", size)
+            if shapely.get_srid(geometry):
+                losses.count("SRID", "geometry")
+    return losses.texts()
 
 
 def mended(shape: Shape, report: Callable[[str], None]) -> list[Shape]:
@@ -210,9 +250,14 @@ def outlined(shape: Shape, tolerance: float | None) -> Shape:
     outline = _geometry(shape, tolerance)
     if shape.kind != "polygon" and outline.geom_type != "Polygon":
         return shape._replace(radius=0)
-    (whole,) = shapes_of_geometry(outline, shape.where, shape.name)
+    turned = shapely.orient_polygons(outline)  # as RFC 7946 requires; the order is new
+    (whole,) = shapes_of_geometry(turned, shape.where, shape.name)
     parts = [
-        part._replace(points=part.points[:-1], holes=[hole[:-1] for hole in part.holes])
+        part._replace(
+            points=part.points[:-1],
+            holes=[hole[:-1] for hole in part.holes],
+            properties=shape.properties,
+        )
         for part in whole.parts
     ]
     return together(parts)[0]

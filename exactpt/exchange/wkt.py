@@ -1,7 +1,8 @@
 """Well-known text: shapely parses the structure, the decimals are read from the text exactly.
 
 Shapely returns coordinates as doubles, in the order of the text; each is replaced by the
-decimal at its position.
+decimal at its position. The number that PostGIS writes before a geometry, ``SRID=4326;``, stays
+with the body as the property ``SRID``; z and m are left out.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from itertools import accumulate
 from typing import Final
 
 from exactpt.errors import InputError
+from exactpt.exchange.losses import Losses
 from exactpt.exchange.shapes import DEEPEST, Shape, rounded_rings
 from exactpt.scene.json_values import exact_number
 
@@ -21,25 +23,44 @@ _PARENTHESIS: Final = re.compile(r"[()]")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 
 
-def shapes_of(text: str) -> Iterator[Shape]:
+_SRID: Final = re.compile(r"\s*SRID\s*=\s*(\d{1,9})\s*;", re.IGNORECASE | re.ASCII)
+"""The number of a coordinate reference system before a geometry."""
+
+
+def shapes_of(text: str, losses: Losses | None = None) -> Iterator[Shape]:
     """Yield the shapes of a text with one or more geometries, one for each part.
+
+    Args:
+        text: the geometries.
+        losses: data that are left out are added to these.
 
     Raises:
         InputError: one line that names the geometry and its fault.
     """
     from exactpt.exchange.shapely_adapter import read_wkt, shapes_of_geometry
 
-    for i, part in enumerate(_NEXT.split(text.strip())):
+    left_out = losses or Losses()
+    for i, whole in enumerate(_NEXT.split(text.strip())):
         where = f"geometry {i}"
-        if _depth(part) > DEEPEST:
+        if _depth(whole) > DEEPEST:
             raise InputError(f"{where}: nested more than {DEEPEST} deep")
-        geometry, size, dimensions = read_wkt(part, where)
+        srid = _SRID.match(whole)
+        part = whole[srid.end() :] if srid else whole
+        geometry, size, dimensions, lost = read_wkt(part, where)
         numbers = _NUMBER.findall(part)
         if len(numbers) != size * dimensions:
-            raise InputError(f"{where}: a coordinate is not a decimal number")
+            raise InputError(
+                f"{where}: a coordinate is not a decimal number, or points have different "
+                "numbers of them"
+            )
+        for what in lost:
+            left_out.count(what, "point", size)
         exact = [exact_number(number, where) for number in numbers]
         points = list(zip(exact[::dimensions], exact[1::dimensions], strict=True))
-        yield from shapes_of_geometry(geometry, where, f"body {i}", points)
+        properties = {"SRID": int(srid[1])} if srid else None
+        for shape in shapes_of_geometry(geometry, where, f"body {i}", points):
+            more = [other._replace(properties=properties) for other in shape.more]
+            yield shape._replace(properties=properties, more=more)
 
 
 def _depth(text: str) -> int:

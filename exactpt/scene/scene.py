@@ -31,6 +31,9 @@ class Scene:
     Attributes:
         bodies: in the order of the file; names are unique. A tuple, or a sequence that makes
             each body on first access (`from_arrays`).
+        lost: data that `exactpt.read_shapes` left out of the file that it read, such as "crs"
+            or "z of 40 points", or `from_shapely` of geometries. Empty for other scenes, also for
+            those that are made of this one; it has no part in equality.
 
     Raises:
         InputError: if a name repeats, the end is not after the start, or a body is not valid at
@@ -39,10 +42,11 @@ class Scene:
         RoundingError: see `check_rounding`.
     """
 
-    __slots__ = ("_end", "_start", "bodies")
+    __slots__ = ("_end", "_start", "bodies", "lost")
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         check_rounding()
+        self.lost: tuple[str, ...] = ()
         self.bodies: Sequence[Body] = tuple(bodies)
         for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
@@ -418,6 +422,7 @@ def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
     """Return the scene of bodies that are known to be valid."""
     scene = Scene.__new__(Scene)
     scene.bodies, scene._start, scene._end = bodies, start, end
+    scene.lost = ()
     return scene
 
 

@@ -1,7 +1,6 @@
 """GeoJSON in and out: exact decimals, names, parts, and what is refused."""
 
 import json
-from itertools import pairwise
 
 import pytest
 from folding import every
@@ -125,9 +124,9 @@ def test_holes_are_refused_or_filled_on_demand():
         (text("Polygon", [[[0, 0], None]]), "ring 0, position 1: not a list"),
         (text("Circle", [0, 0]), "not a geometry"),
         (text("Feature", [0, 0]), "a Feature is inside of a geometry"),
-        ('{"type": "Feature", "geometry": null}', "has no position"),
-        ('{"type": "Feature", "geometry": null, "id": "a"}',
-         r"feature \(a\): point 'a' has no position"),
+        ('{"type": "Feature"}', 'feature has no geometry: the key "geometry" is missing$'),
+        ('{"type": "Feature", "geometri": {}, "id": "a"}',
+         r"feature \(a\) has no geometry: the key .* is missing; is it 'geometri'\?"),
         (text("MultiPolygon", [], name="isles"),
          r"feature 0 \(isles\): polygon 'isles' has no area"),
         (text("MultiLineString", []), "feature 0: line 'feature 0' has no length"),
@@ -136,7 +135,7 @@ def test_holes_are_refused_or_filled_on_demand():
          "geometry: point 'body' has no position"),
         ('{"type": "FeatureCollection", "features": [{"type": "Point"}]}', "not a feature"),
         ('{"type": "FeatureCollection"}', '"features": not a list'),
-        ('{"type": "Topology"}', "not GeoJSON"),
+        ('{"type": "Topology"}', "TopoJSON is not supported"),
         ("[]", "not GeoJSON"),
         ("{", "not JSON"),
         ('{"type": "GeometryCollection", "geometries": [' * 3 + "1" + "]}" * 3,
@@ -185,7 +184,8 @@ def test_positions_are_written_as_the_nearest_doubles():
 
 
 @given(st.permutations(range(4)), st.booleans())
-def test_polygons_are_written_counter_clockwise_and_closed(order, backwards):
+def test_polygons_keep_their_order_and_are_closed(order, backwards):
+    """RFC 7946 asks for counter-clockwise rings; contacts name vertices by their number."""
     corners = [(0, 0), (3, 0), (3, 3), (0, 3)]
     turned = [corners[(k + order[0]) % 4] for k in range(4)]
     shape = Shape("", "p", "polygon", [(QQ(x), QQ(y)) for x, y in turned[:: 1 - 2 * backwards]])
@@ -193,9 +193,8 @@ def test_polygons_are_written_counter_clockwise_and_closed(order, backwards):
     (feature,) = json.loads(geojson_of([shape]))["features"]
 
     (ring,) = feature["geometry"]["coordinates"]
-    area = sum(a[0] * b[1] - a[1] * b[0] for a, b in pairwise(ring))
     assert ring[0] == ring[-1]
-    assert area == 18
+    assert [tuple(p) for p in ring[:-1]] == list(shape.points)
 
 
 def test_there_and_back(tmp_path):

@@ -276,3 +276,180 @@ def test_convert_goes_both_ways(tmp_path, capsys):
     assert json.loads(scene.read_text())["time"] == [str(START), str(START + 3)]
     code_of("convert", scene, back, "--at", "0")
     assert "moving features have all times" in capsys.readouterr().err
+
+
+# The encoding Trajectory, and members that are read, lost or refused
+
+
+def trajectory(name="a", places=((0, 0), (2, 2), (0, 2)), seconds=(0, 5, 9), **members):
+    dates = [f"1970-01-01T00:00:0{second}Z" for second in seconds]
+    return {
+        "type": "Feature",
+        "id": name,
+        "geometry": {"type": "LineString", "coordinates": [list(place) for place in places]},
+        "properties": {"datetimes": dates, "state": ["walking", "running"]},
+        **members,
+    }
+
+
+@pytest.mark.parametrize("suffix", ["mfjson", "json", "geojson"])
+def test_a_trajectory_is_a_point_that_moves(tmp_path, suffix):
+    """A is at (2t/5, 2t/5) up to 5, then at (2 - (t - 5)/2, 2); B at (2t/9, 2 - 2t/9).
+
+    y agrees at t = 45/14 alone, where x is 9/7 and 5/7: no contact. If C goes there in time, it
+    meets A at 5/2, which is at (1, 1).
+    """
+    path = tmp_path / f"in.{suffix}"
+    others = trajectory("B", [(0, 2), (2, 0)], (0, 9)), trajectory("C", [(1, 1), (1, 1.5)], (0, 9))
+    path.write_text(json.dumps(collection(trajectory("A"), others[0])))
+    scene = read_shapes(path)
+
+    assert [body.name for body in scene.bodies] == ["A", "B"]
+    assert scene.time == (0, 9)
+    assert scene.at(7) == {"A": [(1, 2)], "B": [(Fraction(14, 9), Fraction(4, 9))]}
+    assert first_contact(scene) is None
+    assert scene.bodies[0].properties["state"] == ["walking", "running"]
+    path.write_text(
+        json.dumps(collection(trajectory("A"), trajectory("C", [(1, 1), (1, 1)], (0, 9))))
+    )
+    assert first_contact(read_shapes(path)).time == Fraction(5, 2)
+
+
+def test_a_trajectory_comes_back_as_a_moving_point(tmp_path):
+    scene = read(tmp_path, collection(trajectory("A")))
+    write_shapes(scene, tmp_path / "out.mfjson")
+
+    back = read_shapes(tmp_path / "out.mfjson")
+
+    for t in (0, Fraction(5, 2), 5, 7, 9):
+        assert back.at(t) == scene.at(t)
+    assert back.bodies[0].properties == scene.bodies[0].properties
+    (written,) = json.loads((tmp_path / "out.mfjson").read_text())["features"]
+    assert written["id"] == "A"
+    assert "geometry" not in written
+
+
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        (trajectory(seconds=(0, 5)), "2 datetimes for 3 positions"),
+        (trajectory(seconds=(0, 5, 5)), "datetimes do not increase"),
+        (trajectory(places=[(0, 0)], seconds=[0]), "at least two timestamps"),
+        (trajectory(properties={"datetimes": "noon"}), '"datetimes": not a list'),
+        (trajectory(trs={"type": "Name", "properties": {"name": "weeks"}}), '"trs": times are da'),
+        (collection(trajectory(), {"type": "Feature", "properties": {}, "geometry": {
+            "type": "Point", "coordinates": [1, 2]}}), "feature 1: it does not move"),
+    ],
+)  # fmt: skip
+def test_a_trajectory_that_is_none_is_refused(tmp_path, data, message):
+    with pytest.raises(InputError, match=message):
+        read(tmp_path, data)
+
+
+UPRIGHT = {"scales": [1, 1, 1], "angles": [0, 0, 0]}
+
+
+@every(
+    "geometry, members, lost",
+    [
+        ({}, {}, ()),
+        ({"interpolation": None, "base": None, "orientations": [UPRIGHT]}, {"trs": None}, ()),
+        ({"crs": {}, "upper_inc": False, "velocity": 3}, {},
+         ("crs", "velocity of 1 moving geometry", "upper_inc of 1 moving geometry")),
+        ({"coordinates": [[0, 0, 1], [10, 0, 2]]}, {"bbox": [0, 0, 1, 1]},
+         ("bbox", "z of 2 points")),
+        ({}, {"geometry": {"type": "Point", "coordinates": [0, 0]}, "time": DATES},
+         ("geometry of 1 moving feature",)),
+        ({}, {"time": [DATES[0], "2001-01-01T00:00:00Z"]},
+         ("time beyond the positions of 1 moving feature",)),
+        ({}, {"trs": {"type": "Link", "properties": {
+            "href": "http://www.opengis.net/def/uom/ISO-8601/0/Gregorian", "type": "OGCDEF"}}}, ()),
+    ],
+)  # fmt: skip
+def test_losses_of_moving_features_are_named(tmp_path, geometry, members, lost):
+    given = {**feature(), **members}
+    given["temporalGeometry"] = {**given["temporalGeometry"], **geometry}
+
+    scene = read(tmp_path, given)
+
+    assert scene.lost == lost
+    assert scene.at(START + 5) == {"a": [(5, 0)]}
+
+
+def test_temporal_properties_stay_with_the_body(tmp_path):
+    speeds = [{"datetimes": DATES, "speed": {"values": [1, 2.5], "interpolation": "Linear"}}]
+    scene = read(tmp_path, {**feature(), "temporalProperties": speeds})
+    scene.save(tmp_path / "scene.json")
+
+    assert scene.bodies[0].properties["temporalProperties"] == speeds
+    write_shapes(Scene.load(tmp_path / "scene.json"), tmp_path / "out.mfjson")
+    (written,) = json.loads((tmp_path / "out.mfjson").read_text())["features"]
+    assert written["temporalProperties"] == speeds
+    assert written["properties"] == {"name": "a"}
+
+
+def test_a_life_bounds_the_time_of_a_feature(tmp_path):
+    """It moves for 10 s, and is there from 4 s to 8 s."""
+    life = ["2000-01-01T00:00:04Z", "2000-01-01T00:00:08Z"]
+    scene = read(tmp_path, {**feature(), "lifeSpan": life})
+
+    assert scene.time == (START + 4, START + 8)
+    assert scene.at(START + 4) == {"a": [(4, 0)]}
+    with pytest.raises(InputError, match="it moves from t = 946684804 to 946684808"):
+        read(tmp_path, {**feature(), "time": life}, time=(START, START + 8))
+    with pytest.raises(InputError, match="it is nowhere while it is there"):
+        read(tmp_path, {**feature(), "time": ["2001-01-01T00:00:00Z", "2002-01-01T00:00:00Z"]})
+
+
+RING = [[0, 0], [4, 0], [4, 4], [0, 0]]
+
+
+@pytest.mark.parametrize(
+    "geometry, message",
+    [
+        ({"base": {"type": "glTF", "href": "car.gltf"}}, '"base": a model that moves'),
+        ({"orientations": [{"scales": [1, 1, 1], "angles": [0, 0, 90]}]}, "it turns or scales"),
+        ({"orientations": [{"scales": [1, 2, 1], "angles": [0, 0, 0]}]}, "it turns or scales"),
+        ({"interpolation": "Stepwise"}, "linear interpolation, not 'Stepwise'"),
+        ({"interpolation": "Linear", "interpolations": ["Discrete"]}, "linear interpolation, not"),
+        ({"type": "MovingGeometryCollection", "prisms": []}, "not one of MovingPoint"),
+        ({"sequences": [{"datetimes": DATES, "coordinates": [[7, 7], [8, 8]]}]},
+         "two values of 'coordinates'"),
+        # The corner that is there twice is another one: the vertices would swap.
+        ({"type": "MovingPolygon", "coordinates": [
+            [[[0, 0], [0, 0], [4, 0], [4, 4], [0, 0]]], [[[0, 0], [4, 0], [4, 0], [4, 4], [0, 0]]],
+        ]}, "position 1: its rings, or its vertices that coincide"),
+        # Three corners of an open line, then a closed one: a wire that becomes a plate.
+        ({"type": "MovingLineString", "coordinates": [RING[:3], RING]},
+         "position 1: its rings, or its vertices that coincide"),
+    ],
+)  # fmt: skip
+def test_members_that_change_a_motion_are_refused(tmp_path, geometry, message):
+    given = feature()
+    given["temporalGeometry"] = {**given["temporalGeometry"], **geometry}
+
+    with pytest.raises(InputError, match=message):
+        read(tmp_path, given)
+
+
+@pytest.mark.parametrize(
+    "pose, message",
+    [
+        ({"rotation": 0, "yaw": 0.5}, "value 0: it turns"),
+        ({"rotation": 0, "pitch": 0.5}, "value 0: it turns"),
+        ({"rotation": 0, "quaternion": {}}, "value 0: unknown key 'quaternion'"),
+        ({}, "value 0: rotation: not a number"),
+    ],
+)
+def test_poses_that_turn_in_another_way_are_refused(tmp_path, pose, message):
+    rigid = {
+        "type": "MovingRigidGeometry",
+        "geometry": {"type": "Polygon", "coordinates": [RING]},
+        "datetimes": DATES,
+        "values": [{"position": {"lat": 0, "lon": 0, "alt": 3}, **pose}] * 2,
+    }
+
+    with pytest.raises(InputError, match=message):
+        read(tmp_path, rigid)
+    rigid["values"] = [{"position": {"lat": 0, "lon": 0, "alt": 3}, "rotation": 0}] * 2
+    assert read(tmp_path, rigid).lost == ("alt of 2 positions",)
