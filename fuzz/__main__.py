@@ -16,6 +16,7 @@ from fuzz import battery, planted, soak
 from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
 from fuzz.hostile.run import hostile_files
+from fuzz.members import members
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
 from fuzz.proofs.command import certificates, proof_both, proof_mutants
@@ -63,6 +64,7 @@ def fuzz(
       python -m fuzz questions
       python -m fuzz transformations
       python -m fuzz hostile --cases 100000
+      python -m fuzz members --cases 20000
       python -m fuzz soak 60
     """
     names = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
@@ -180,6 +182,7 @@ def run_soak(minutes: float, seed: int, tiling: str) -> None:
 COMMANDS = {
     "soak": run_soak,
     "hostile": hostile_files,
+    "members": members,
     "record": make_record,
     "space-queries": public_queries,
     "battery": run_battery,
