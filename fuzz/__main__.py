@@ -15,6 +15,7 @@ from exactpt.tiling.start import TILINGS
 from fuzz import battery, planted, soak
 from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
+from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.members import members
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
@@ -65,6 +66,7 @@ def fuzz(
       python -m fuzz transformations
       python -m fuzz hostile --cases 100000
       python -m fuzz members --cases 20000
+      python -m fuzz drawings --cases 5000
       python -m fuzz soak 60
     """
     names = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
@@ -183,6 +185,7 @@ COMMANDS = {
     "soak": run_soak,
     "hostile": hostile_files,
     "members": members,
+    "drawings": drawings,
     "record": make_record,
     "space-queries": public_queries,
     "battery": run_battery,
