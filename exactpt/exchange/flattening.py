@@ -64,10 +64,21 @@ _LENGTHS: Final[dict[str, dict[str, str]]] = {
     "polygon": {},
 }
 """For each basic shape its lengths, and the size of the viewport that is 100% of each."""
+_SIZES: Final[dict[str, set[str]]] = {
+    "rect": {"width", "height"},
+    "circle": {"r"},
+    "ellipse": {"rx", "ry"},
+    "line": set(),
+    "path": set(),
+    "polyline": set(),
+    "polygon": set(),
+}
+"""For each basic shape the lengths without which it is not drawn."""
 
 _SMALLEST: Final = QQ(1, 10**100)
 """A unit of a drawing has more millimetres than these."""
 _UNCHANGING: Final = {"auto", "none", "normal", "inherit", "initial", "unset"}
+_FROM_PARENT: Final = ("inherit", "unset")
 _IDENTITY: Final = Matrix()
 
 
@@ -232,12 +243,14 @@ class _Flattening:
             self._losses.count("filter", "element")
         matrix = matrix_of(values.get("transform", "none"), where)
         _check_origin(values, matrix, where)
-        own = {
-            key: values[key]
-            for key in INHERITED
-            if key in values and values[key].lower() not in ("inherit", "unset")
+        own = {key: values[key] for key in INHERITED if key in values}
+        own = {key: value for key, value in own.items() if value.lower() not in _FROM_PARENT}
+        inherited = {
+            key: value
+            for key, value in (place.inherited | own).items()
+            if value.lower() != "initial"
         }
-        inside = replace(place.inside(matrix), inherited=place.inherited | own)
+        inside = replace(place.inside(matrix), inherited=inherited)
         return self._cut(values, inside, where)
 
     def _cut(self, values: Declarations, place: _Place, where: str) -> _Place:
@@ -359,10 +372,14 @@ class _Flattening:
         if place.inherited.get("visibility", "visible").lower() in ("hidden", "collapse"):
             return
         given = {**element.attrib, **values}
-        own: dict[str, str] = {}
-        for key, axis in _LENGTHS[tag].items():
-            if given.get(key, "auto").strip().lower() != "auto":
-                own[key] = repr(pixels(given[key], place.whole(axis), f"{where}: {key}"))
+        lengths = {
+            key: pixels(given[key], place.whole(axis), f"{where}: {key}")
+            for key, axis in _LENGTHS[tag].items()
+            if given.get(key, "auto").strip().lower() != "auto"
+        }
+        if not _is_drawn(tag, lengths, where):
+            return
+        own = {key: repr(value) for key, value in lengths.items()}
         if tag == "path":
             data = _path_data(given.get("d", "none"))
             if not data.strip():
@@ -393,6 +410,25 @@ def _where(element: Xml.Element) -> str:
     tag = tag_of(element)
     name = element.get("id")
     return f"{tag} {shorten(name)}" if name else tag
+
+
+def _is_drawn(tag: str, lengths: dict[str, float], where: str) -> bool:
+    """Return True if a basic shape has a size; complete its lengths as SVG 2 states.
+
+    A radius that is not given is the other radius of an ellipse; other lengths are 0.
+
+    Raises:
+        InputError: if a size is negative.
+    """
+    if tag in ("rect", "ellipse"):
+        for key, other in (("rx", "ry"), ("ry", "rx")):
+            lengths.setdefault(key, lengths.get(other, 0.0))
+    for key in _LENGTHS[tag]:
+        lengths.setdefault(key, 0.0)
+    for key in _SIZES[tag] | ({"rx", "ry"} & lengths.keys()):
+        if lengths[key] < 0:
+            raise InputError(f"{where}: {key}: it is negative: {lengths[key]!r}")
+    return all(lengths[key] > 0 for key in _SIZES[tag])
 
 
 def _path_data(data: str) -> str:

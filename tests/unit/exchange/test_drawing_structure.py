@@ -164,6 +164,51 @@ def test_what_changes_an_outline_and_is_not_understood_is_refused(inside, attrib
     assert "\n" not in str(refused.value)
 
 
+@every(
+    "inside",
+    [
+        '<rect height="4"/>',
+        '<rect width="0" height="4"/>',
+        '<rect width="auto" height="4"/>',
+        "<circle/>",
+        '<circle r="0"/>',
+        "<ellipse/>",
+        '<ellipse rx="0" ry="4"/>',
+        "<path/>",
+        '<path d="none"/>',
+        '<polygon points=""/>',
+    ],
+)
+def test_a_basic_shape_without_a_size_is_not_drawn(inside):
+    """svgelements took 1 for a length that is not given."""
+    assert read(inside) == []
+
+
+@every(
+    "inside, expected",
+    [
+        ('<ellipse rx="4"/>', (-4, -4, 8, 8)),
+        ('<ellipse rx="auto" ry="4"/>', (-4, -4, 8, 8)),
+        ('<ellipse cx="1" rx="4" ry="2"/>', (-3, -2, 8, 4)),
+        ('<circle cy="3" r="2"/>', (-2, 1, 4, 4)),
+        ('<line x2="5"/>', (0, 0, 5, 0)),
+        ('<rect width="9" height="8" ry="2"/>', (0, 0, 9, 8)),
+    ],
+)
+def test_lengths_that_are_not_given_are_those_of_the_standard(inside, expected):
+    (shape,) = read(inside)
+
+    assert [float(length) for length in box(shape)] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    "inside", ['<rect width="3" height="-4"/>', '<circle r="-1"/>', '<ellipse rx="-1" ry="2"/>']
+)
+def test_negative_sizes_are_refused(inside):
+    with pytest.raises(InputError, match="it is negative: -"):
+        read(inside)
+
+
 def test_style_sheets_of_other_files_are_refused():
     text = f'<?xml version="1.0"?><?xml-stylesheet href="a.css"?><svg>{RECT}</svg>'
 

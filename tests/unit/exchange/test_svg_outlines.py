@@ -172,7 +172,7 @@ def test_nested_rings_alternate(order):
         (drawing('<rect width="1e300" height="1e308" rx="1e307"/>'), "raise the tolerance"),
         (
             drawing('<g transform="scale(1 2)"><rect width="-1e308" height="4" rx="1"/></g>'),
-            "tolerance",
+            "rect: width: it is negative",
         ),
         (drawing('<path id="b" d="M0 0l2 2v-2l-2 1z"/>'), r"\(id b\): body 'b': not a simple poly"),
     ],
