@@ -365,6 +365,7 @@ _ELEMENTS: Final = [
     _Member("text", "<text>a</text>", "lost"), _Member("image", '<image href="a.png"/>', "lost"),
     _Member("foreignObject", "<foreignObject/>", "lost"), _Member("blob", "<blob/>", "lost"),
     _Member("title", "<title>a</title><desc>b</desc>", "read"),
+    _Member("rect", '<rect height="4"/><circle/><ellipse ry="0"/>', "read"),
     _Member("defs", '<defs><rect width="9" height="9"/></defs>', "read"),
     _Member("symbol", '<symbol><rect width="9" height="9"/></symbol>', "read"),
     _Member("marker", '<marker id="m"><rect width="9" height="9"/></marker>', "read"),

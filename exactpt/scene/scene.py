@@ -248,7 +248,13 @@ class Scene:
     ) -> Scene:
         """Return the scene of shapely geometries, at rest.
 
-        A MultiPolygon is one body; of other geometries, each part is.
+        A MultiPolygon is one body; of other geometries, each part is. Heights, measures and the
+        number of a reference system are left out and named in `lost`.
+
+        >>> import shapely
+        >>> scene = Scene.from_shapely({"pole": shapely.Point(1, 2, 7)})
+        >>> scene.at(0), scene.lost
+        ({'pole': [(Fraction(1, 1), Fraction(2, 1))]}, ('z of 1 point',))
 
         Args:
             geometries: by name, or in order; the exact values of their doubles are taken.
