@@ -11,7 +11,14 @@ from typing import Final
 from xml.etree import ElementTree as Xml
 
 from exactpt.errors import InputError
-from exactpt.exchange.flattening import NAMESPACE, Drawing, flatten, link_of, tag_of
+from exactpt.exchange.flattening import (
+    NAMESPACE,
+    Drawing,
+    flatten,
+    link_of,
+    named_elements,
+    tag_of,
+)
 from exactpt.exchange.losses import Losses
 from exactpt.exchange.shapes import DEEPEST
 from exactpt.kernel.numbers import shorten
@@ -80,7 +87,7 @@ def _check_copies(root: Xml.Element) -> None:
 
     An element that uses itself is infinitely deep, and is refused at the allowed depth.
     """
-    named = {name: element for element in root.iter() if (name := element.get("id")) is not None}
+    named = named_elements(root)
     whole: dict[Xml.Element, tuple[int, int]] = {}
 
     def expand(element: Xml.Element, depth: int) -> tuple[int, int]:

@@ -155,6 +155,16 @@ def link_of(element: Xml.Element) -> str | None:
     return next((link for key in HREFS if (link := element.get(key)) is not None), None)
 
 
+def named_elements(root: Xml.Element) -> dict[str, Xml.Element]:
+    """Return the elements with an ``id``; of several with the same, the first."""
+    found: dict[str, Xml.Element] = {}
+    for element in root.iter():
+        name = element.get("id")
+        if name is not None:
+            found.setdefault(name, element)
+    return found
+
+
 def flatten(root: Xml.Element, losses: Losses) -> Drawing:
     """Return a drawing without structure; copies by ``use`` must be bounded.
 
@@ -169,10 +179,7 @@ class _Flattening:
 
     def __init__(self, root: Xml.Element, losses: Losses) -> None:
         self._root, self._losses = root, losses
-        self._named: dict[str, Xml.Element] = {}
-        for element in root.iter():
-            if element.get("id") is not None:
-                self._named.setdefault(element.get("id", ""), element)
+        self._named = named_elements(root)
         sheets = [element for element in root.iter() if tag_of(element) == "style"]
         self._styles = StyleSheets(sheets)
         self._flat = Xml.Element(f"{{{NAMESPACE}}}svg")
@@ -182,6 +189,9 @@ class _Flattening:
     def drawing(self) -> Drawing:
         """Return the drawing."""
         where = _where(self._root)
+        for element in self._root.iter():
+            if tag_of(element) in _ANIMATIONS and link_of(element) is not None:
+                _check_animation(element, tag_of(element))
         values = self._styles.values_of(self._root, "svg")
         values.pop("overflow", None)  # outlines beyond the page count too
         box = box_of(self._root.get("viewBox"), where)
@@ -372,12 +382,8 @@ class _Flattening:
         if place.inherited.get("visibility", "visible").lower() in ("hidden", "collapse"):
             return
         given = {**element.attrib, **values}
-        lengths = {
-            key: pixels(given[key], place.whole(axis), f"{where}: {key}")
-            for key, axis in _LENGTHS[tag].items()
-            if given.get(key, "auto").strip().lower() != "auto"
-        }
-        if not _is_drawn(tag, lengths, where):
+        lengths = _lengths_of(tag, given, place, where)
+        if not all(lengths[key] > 0 for key in _SIZES[tag]):
             return
         own = {key: repr(value) for key, value in lengths.items()}
         if tag == "path":
@@ -412,14 +418,19 @@ def _where(element: Xml.Element) -> str:
     return f"{tag} {shorten(name)}" if name else tag
 
 
-def _is_drawn(tag: str, lengths: dict[str, float], where: str) -> bool:
-    """Return True if a basic shape has a size; complete its lengths as SVG 2 states.
+def _lengths_of(tag: str, given: Declarations, place: _Place, where: str) -> dict[str, float]:
+    """Return the lengths of a basic shape, in pixels.
 
     A radius that is not given is the other radius of an ellipse; other lengths are 0.
 
     Raises:
         InputError: if a size is negative.
     """
+    lengths = {
+        key: pixels(given[key], place.whole(axis), f"{where}: {key}")
+        for key, axis in _LENGTHS[tag].items()
+        if given.get(key, "auto").strip().lower() != "auto"
+    }
     if tag in ("rect", "ellipse"):
         for key, other in (("rx", "ry"), ("ry", "rx")):
             lengths.setdefault(key, lengths.get(other, 0.0))
@@ -428,7 +439,7 @@ def _is_drawn(tag: str, lengths: dict[str, float], where: str) -> bool:
     for key in _SIZES[tag] | ({"rx", "ry"} & lengths.keys()):
         if lengths[key] < 0:
             raise InputError(f"{where}: {key}: it is negative: {lengths[key]!r}")
-    return all(lengths[key] > 0 for key in _SIZES[tag])
+    return lengths
 
 
 def _path_data(data: str) -> str:

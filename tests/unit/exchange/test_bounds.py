@@ -81,10 +81,11 @@ def test_groups_in_groups(refused):
         '<g id="a"><use href="#a"/></g>',
         '<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>',
         '<use id="a" href="#a"/>',
+        '<g id="a"><use href="#a"/></g><rect id="a" width="1" height="1"/>',
         '<g xmlns:x="http://www.w3.org/1999/xlink" id="a"><use x:href="#a"/></g>',
         "".join(f'<use id="u{i}" href="#u{i + 1}"/>' for i in range(50_000)),
     ],
-    ids=["itself", "each other", "one element", "xlink", "chain"],
+    ids=["itself", "each other", "one element", "two of a name", "xlink", "chain"],
 )
 def test_groups_that_use_themselves(refused, text):
     assert "or one is in itself" in refused("drawing.svg", HEAD + text + "</svg>")

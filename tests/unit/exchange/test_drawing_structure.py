@@ -150,6 +150,8 @@ def test_structure_is_resolved(inside, attributes, expected):
         ('<use href="other.svg#a"/>', "", "this file has no element 'other.svg#a'"),
         ('<rect width="1" height="1"><animate attributeName="x" to="9"/></rect>', "",
          "animate of 'x': a drawing that moves"),
+        (f'{RECT}<defs><animate href="#r" attributeName="x" to="9"/></defs>', "",
+         "animate of 'x': a drawing that moves"),
         (f'{RECT}<animateMotion path="M0 0h9"/>', "", "animateMotion: a drawing that moves"),
         ('<g systemLanguage="en"><path d="M0 0h9"/></g>', "", "systemLanguage is not supported"),
         ('<path d="M0 0h1v1z wobble"/>', "", "path: path data: 'wobble' is not understood"),
