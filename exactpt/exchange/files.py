@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, mfjson, svg, wkt
 from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
+from exactpt.exchange.drawing import valid_text
 from exactpt.exchange.instants import from_datetime
 from exactpt.exchange.losses import Losses, check_strict
 from exactpt.exchange.shapes import Shape, shapes_at
@@ -284,7 +285,7 @@ def _keeps_name(name: str, number: int, kind: Format) -> bool:
     """Return True if a format gives the name of a body back, by its number in the file."""
     if kind == "wkt":
         return name == f"body {number}"
-    return kind != "svg" or svg.valid_text(name) == name
+    return kind != "svg" or valid_text(name) == name
 
 
 def _moves(body: Body) -> bool:
