@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from itertools import chain
 from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
@@ -173,7 +174,7 @@ def data_of(feature: dict[str, Json], where: str, known: set[str]) -> dict[str, 
     found = {key: plain(value) for key, value in (given or {}).items()}
     members: dict[str, object] = {}
     for key, value in feature.items():
-        if key not in known:
+        if key not in known and (key, value) != ("id", None):
             at = free_name(key, {*found, FEATURE_MEMBERS}, {})
             found[at] = plain(value)
             members[key] = at
@@ -187,28 +188,42 @@ def data_of(feature: dict[str, Json], where: str, known: set[str]) -> dict[str, 
 def _check_dates(feature: dict[str, Json], where: str) -> None:
     """Refuse a feature at rest that has a date for each of its positions: it moves.
 
-    A line string with ``datetimes`` is read as a trajectory, see `exactpt.exchange.mfjson`.
+    A line string with ``datetimes`` is read as a trajectory, see `exactpt.exchange.mfjson`. Other
+    programs have the dates in other properties, or in an object that is a property.
     """
     geometry, properties = feature["geometry"], feature.get("properties")
     if not isinstance(geometry, dict) or not isinstance(properties, dict):
         return
-    positions = geometry.get("coordinates")
-    if geometry.get("type") not in ("LineString", "MultiPoint") or not isinstance(positions, list):
+    if geometry.get("type") not in ("LineString", "MultiLineString", "MultiPoint"):
         return
-    for key, dates in properties.items():
-        if (
-            isinstance(dates, list)
-            and len(dates) == len(positions) > 1
-            and all(map(_is_date, dates))
-        ):
+    inner = [data for data in properties.values() if isinstance(data, dict)]
+    for key, dates in chain.from_iterable(data.items() for data in [properties, *inner]):
+        if _dates_each(dates, geometry.get("coordinates"), numbers=key.lower() == _DATES):
             raise InputError(
                 f"{where}: {shorten(key)} has a date for each position, and would be at rest: a "
                 f'trajectory is a LineString with the property "{_DATES}"'
             )
 
 
-def _is_date(value: Json) -> bool:
-    return isinstance(value, str) and not isinstance(value, Number) and is_date(value)
+def _dates_each(dates: Json, coordinates: Json, *, numbers: bool) -> bool:
+    """Return True if there is a date for each position, in lists that are nested alike.
+
+    Args:
+        dates: a property.
+        coordinates: the coordinates of a geometry, or a position.
+        numbers: whether numbers are dates.
+    """
+    if isinstance(coordinates, list) and coordinates and isinstance(coordinates[0], Number):
+        return isinstance(dates, str) and (numbers if isinstance(dates, Number) else is_date(dates))
+    return (
+        isinstance(dates, list)
+        and isinstance(coordinates, list)
+        and 0 < len(dates) == len(coordinates)
+        and all(
+            _dates_each(date, position, numbers=numbers)
+            for date, position in zip(dates, coordinates, strict=True)
+        )
+    )
 
 
 def name_of(feature: Mapping[str, object]) -> str:

@@ -131,6 +131,42 @@ def test_features_come_back_as_they_were(tmp_path, given):
     }  # fmt: skip
 
 
+DATES = ["2026-01-01T00:00:00Z", "2026-01-01T00:00:01Z"]
+TRACKS = {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 1]], [[5, 5], [6, 6]]]}
+
+
+@every(
+    "data",
+    [
+        feature(HIGH, {"coordTimes": DATES}),
+        feature(HIGH, {"DateTimes": [0, 1000]}),
+        feature(HIGH, {"coordinateProperties": {"times": DATES}}),
+        feature({**HIGH, "type": "MultiPoint"}, {"datetimes": DATES}),
+        feature(TRACKS, {"datetimes": [DATES, DATES]}),
+    ],
+)
+def test_dates_of_positions_at_rest_are_refused(tmp_path, data):
+    """GPS logs are written so: the track of a body that moves, not a wire."""
+    with pytest.raises(InputError, match=r"has a date for each position, and would be at rest"):
+        read(tmp_path, data)
+
+
+@every(
+    "data",
+    [
+        feature(HIGH, {"dates": DATES[:1]}),
+        feature(HIGH, {"words": ["a", "b"]}),
+        feature(HIGH, {"heights": [1, 2]}),
+        feature(POINT, {"datetimes": DATES}),
+        feature(TRACKS, {"datetimes": DATES}),
+    ],
+)
+def test_other_lists_are_properties(tmp_path, data):
+    scene = read(tmp_path, data)
+
+    assert scene.bodies[0].properties == data["properties"]
+
+
 @every(
     "data, message",
     [
