@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from exactpt.query.answers import Path as Path
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
+    from exactpt.scene.union import union
     from exactpt.simulation.event import Event as Event
     from exactpt.simulation.history import History
     from exactpt.simulation.motion_changes import onward
@@ -114,6 +115,7 @@ __all__ = [
     "stop",
     "to_datetime",
     "to_features",
+    "union",
     "write_shapes",
 ]
 
@@ -149,6 +151,7 @@ _MODULES: Final = {
     "exactpt.query.answers": ("Hit", "Path", "Place"),
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),
+    "exactpt.scene.union": ("union",),
     "exactpt.simulation.event": ("Event",),
     "exactpt.simulation.history": ("History",),
     "exactpt.simulation.motion_changes": ("onward",),

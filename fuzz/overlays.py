@@ -190,7 +190,7 @@ def _filled(rings: Rings, x: QQ, is_filled: Callable[[Sequence[int]], bool]) -> 
 
 
 def _unknown_vertex(made: Rings, rings: Rings) -> str | None:
-    """Return a vertex that is neither given nor a crossing, or a given one that is left out."""
+    """Return a vertex that should not be there, or one that is left out."""
     given = {p for ring in rings for p in ring}
     edges = [edge for ring in rings for edge in _edges(ring)]
     for ring in made:
@@ -200,19 +200,18 @@ def _unknown_vertex(made: Rings, rings: Rings) -> str | None:
                 return f"the vertex {p} is neither given nor a crossing"
         for a, b in _edges(ring):
             for p in given - {a, b}:
-                if orientation(a, b, p) == 0 and between(a, b, p) and _bounds(p, a, b, rings):
+                if orientation(a, b, p) == 0 and between(a, b, p) and _bounds(p, a, b, edges):
                     return f"the vertex {p} is left out of the edge {a}, {b}"
+        for (a, p), (_, b) in pairwise([*_edges(ring), _edges(ring)[0]]):
+            if orientation(a, p, b) == 0 and not _bounds(p, a, b, edges):
+                return f"the vertex {p} is within an edge from {a} to {b}"
     return None
 
 
-def _bounds(p: Point, a: Point, b: Point, rings: Rings) -> bool:
-    """Return True if an edge along ab begins or ends at p."""
+def _bounds(p: Point, a: Point, b: Point, edges: Sequence[Edge]) -> bool:
+    """Return True if one of the edges begins or ends at p and is along the line ab."""
     return any(
-        p in edge
-        and edge[0] != edge[1]
-        and orientation(a, b, edge[0]) == 0 == orientation(a, b, edge[1])
-        for ring in rings
-        for edge in _edges(ring)
+        p in e and e[0] != e[1] and not any(orientation(a, b, end) for end in e) for e in edges
     )
 
 

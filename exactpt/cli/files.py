@@ -67,7 +67,8 @@ _FEW = 3
 @click.option(
     "--repair",
     is_flag=True,
-    help="Mend polygons that are not valid by shapely's make_valid, with a message for each.",
+    help="Replace polygons that are not valid by those that their rings fill (even-odd rule), "
+    "with a message for each.",
 )
 @click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
 @click.option(

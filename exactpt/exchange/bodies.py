@@ -6,8 +6,9 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, final
 
 from exactpt.errors import InputError
+from exactpt.exchange.repair import mended, repair_report
 from exactpt.exchange.shapes import Kind, Shape, together
-from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.polygon import are_collinear
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import REST, Motion
@@ -19,9 +20,21 @@ if TYPE_CHECKING:
 
 Holes: TypeAlias = Literal["keep", "refuse", "fill"]
 Parts: TypeAlias = Literal["keep", "split"]
-Repair: TypeAlias = "Callable[[Shape], Iterable[Shape]]"
 
 _FEWEST: Final[dict[Kind, int]] = {"point": 1, "line": 2, "polygon": 3}
+
+
+@final
+class InvalidShapeError(InputError):
+    """A shape whose points do not describe a valid body.
+
+    Attributes:
+        fault: what is wrong, without the place of the shape and the remedy.
+    """
+
+    def __init__(self, message: str, fault: str) -> None:
+        super().__init__(message)
+        self.fault = fault
 
 
 def scene_of(
@@ -31,7 +44,7 @@ def scene_of(
     holes: Holes = "keep",
     parts: Parts = "keep",
     radius: Rational = 0,
-    repair: Repair | None = None,
+    repaired: Callable[[str], None] | None = None,
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
     """Return the scene at rest of some shapes, in their order.
@@ -42,7 +55,8 @@ def scene_of(
         holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
         parts: "keep" the parts of a shape together as one body, or "split" them into bodies.
         radius: the radius of each body.
-        repair: called with each shape that is not a valid body; the shapes to take instead.
+        repaired: called with a message for each polygon that is not valid and is replaced by valid
+            ones (`mended`); if None, none is.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
 
@@ -50,7 +64,7 @@ def scene_of(
         InputError: one line that names the shape and the remedy.
     """
     empty = Scene([], time)
-    found = _Bodies(time, holes, radius, repair)
+    found = _Bodies(time, holes, parts, radius, repaired)
     for given in shapes:
         for shape in given.parts if parts == "split" else (given,):
             if skipped is None:
@@ -65,31 +79,40 @@ class _Bodies:
     """The bodies of shapes, by name, see `scene_of`."""
 
     def __init__(
-        self, time: Sequence[Rational], holes: Holes, radius: Rational, repair: Repair | None
+        self,
+        time: Sequence[Rational],
+        holes: Holes,
+        parts: Parts,
+        radius: Rational,
+        repaired: Callable[[str], None] | None,
     ) -> None:
-        self._time, self._holes, self._radius, self._repair = time, holes, radius, repair
+        self._time, self._holes, self._radius, self._repaired = time, holes, radius, repaired
+        self._splits = parts == "split"
         self._last: dict[str, int] = {}
         self.bodies: dict[str, Body] = {}
 
     def _valid(self, shape: Shape) -> Body:
         name = free_name(shape.name, self.bodies, self._last)
         body = body_of(shape, name, holes=self._holes, radius=self._radius)
-        _check_simple(shape, body, self._time)
+        _check_valid(shape, body, self._time)
         return body
 
     def add_or_mend(self, shape: Shape) -> None:
-        """Add the body of a shape, or those that repair makes of it."""
+        """Add the body of a shape; if it is not valid, what the repair makes of it."""
         try:
-            body = self._valid(shape)
-        except InputError:
-            if self._repair is None:
+            self._add(shape)
+        except InvalidShapeError as error:
+            if self._repaired is None:
                 raise
-        else:
-            self.bodies[body.name] = body
-            return
-        for mended in self._repair(shape):
-            body = self._valid(mended)
-            self.bodies[body.name] = body
+            given = shape.without_holes() if self._holes == "fill" else shape
+            repaired = mended(given)
+            for part in repaired.parts if self._splits else (repaired,):
+                self._add(part)
+            self._repaired(repair_report(given, repaired, error.fault))
+
+    def _add(self, shape: Shape) -> None:
+        body = self._valid(shape)
+        self.bodies[body.name] = body
 
     def add_what_is_valid(self, shape: Shape, skipped: Callable[[str], None]) -> None:
         """Likewise, without the parts that are not valid on their own."""
@@ -154,29 +177,29 @@ def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
         points.pop()
     is_polygon = shape.kind == "polygon" or (closes and len(points) > 2)
     kind: Kind = "polygon" if is_polygon else shape.kind
-    if len(points) < _FEWEST[kind] or (is_polygon and signed_area2(points) == 0):
+    if len(points) < _FEWEST[kind] or (is_polygon and are_collinear(points)):
         lacks = {"point": "position", "line": "length", "polygon": "area"}[kind]
-        what = f"{kind} {shorten(shape.name)}"
+        fault = f"{kind} {shorten(shape.name)} has no {lacks}"
         remedy = "remove it"
         if ring is not shape.points:
-            what, remedy = f"a hole of {what}", "mend it (--repair)"
-        raise InputError(
-            f"{shape.where}: {what} has no {lacks}: "
-            f"{remedy}, or leave such shapes out (--skip-invalid)"
+            fault, remedy = f"a hole of {fault}", "mend it (--repair)"
+        raise InvalidShapeError(
+            f"{shape.where}: {fault}: {remedy}, or leave such shapes out (--skip-invalid)", fault
         )
     return points, is_polygon
 
 
-def _check_simple(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
+def _check_valid(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
     try:
         Scene([body], time)
     except InputError as error:
         split = "split it (--parts split), " if shape.more else ""
         if body.has_rings and any(part.holes for part in shape.parts):
             split += "fill its holes (--holes fill), "
-        raise InputError(
+        raise InvalidShapeError(
             f"{shape.where}: {error}; {split}mend it (--repair), or leave such outlines out "
-            "(--skip-invalid)"
+            "(--skip-invalid)",
+            str(error).removeprefix(f"body {shorten(body.name)}: "),
         ) from None
 
 

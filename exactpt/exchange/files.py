@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, mfjson, svg, wkt
-from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
+from exactpt.exchange.bodies import Holes, Parts, scene_of
 from exactpt.exchange.drawing import valid_text
 from exactpt.exchange.instants import from_datetime
 from exactpt.exchange.losses import Losses, check_strict
@@ -47,7 +47,9 @@ def read_shapes(
     tolerance: float = 0.1,
     holes: Holes = "keep",
     parts: Parts = "keep",
+    repair: bool = False,
     repaired: Callable[[str], None] | None = None,
+    skip_invalid: bool = False,
     skipped: Callable[[str], None] | None = None,
     strict: bool = False,
     max_bytes: int | None = None,
@@ -82,10 +84,12 @@ def read_shapes(
         tolerance: maximum distance of a chord from its curve in an SVG, in units of the scene.
         holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
         parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
-        repaired: called with a message for each polygon that is not valid and is replaced by what
-            shapely's make_valid makes of it; if None, none is.
-        skipped: called with a message for each shape that cannot be a body and is left out;
-            if None, such a shape is an error.
+        repair: whether a polygon that is not valid is replaced by the polygons that its rings fill:
+            by the even-odd rule, and exactly. The result is a body, with parts where it needs them.
+        repaired: called with a message for each repair; it implies ``repair``.
+        skip_invalid: whether a shape that cannot be a body is left out; else it is an error.
+        skipped: called with a message for each shape that is left out; it implies
+            ``skip_invalid``.
         strict: whether data that would be left out are an error.
         max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
@@ -100,8 +104,15 @@ def read_shapes(
     file = Path(path)
     kind, text = _format(file), read_text(file, max_bytes)
 
-    def prefixed(report: Callable[[str], None] | None) -> Callable[[str], None] | None:
-        return None if report is None else lambda line: report(f"{file}: {line}")
+    def reporter(
+        report: Callable[[str], None] | None, *, is_wanted: bool
+    ) -> Callable[[str], None] | None:
+        if report is not None:
+            return lambda line: report(f"{file}: {line}")
+        return (lambda _: None) if is_wanted else None
+
+    to_repaired = reporter(repaired, is_wanted=repair)
+    to_skipped = reporter(skipped, is_wanted=skip_invalid)
 
     losses = Losses()
     try:
@@ -110,7 +121,7 @@ def read_shapes(
             return loads(text)
         if kind == "mfjson":
             scene = mfjson.scene_of_features(
-                text, losses, time=span, holes=holes, skipped=prefixed(skipped)
+                text, losses, time=span, holes=holes, skipped=to_skipped
             )
         else:
             scene = scene_of(
@@ -118,8 +129,8 @@ def read_shapes(
                 time=span or (0, 1),
                 holes=holes,
                 parts=parts,
-                repair=_repair(prefixed(repaired)),
-                skipped=prefixed(skipped),
+                repaired=to_repaired,
+                skipped=to_skipped,
             )
         if strict:
             check_strict(losses.texts())
@@ -133,14 +144,6 @@ def read_shapes(
 
 def _seconds(at: Rational | datetime) -> Rational:
     return from_datetime(at) if isinstance(at, datetime) else at
-
-
-def _repair(report: Callable[[str], None] | None) -> Repair | None:
-    if report is None:
-        return None
-    from exactpt.exchange.shapely_adapter import mended
-
-    return lambda shape: mended(shape, report)
 
 
 def holds_scene(path: Path, max_bytes: int | None = None) -> bool:

@@ -8,8 +8,8 @@ A coordinate of shapely is a double and is taken at its exact value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import combinations, islice
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from numpy import errstate
@@ -183,55 +183,6 @@ def _lost_of(geometries: Iterable[object]) -> tuple[str, ...]:
             if shapely.get_srid(geometry):
                 losses.count("SRID", "geometry")
     return losses.texts()
-
-
-def mended(shape: Shape, report: Callable[[str], None]) -> list[Shape]:
-    """Return the valid polygons that shapely's make_valid makes of a shape that is not one.
-
-    Lines and points that it leaves are dropped. Parts that still touch become shapes of their own,
-    since a body's parts are disjoint.
-
-    Args:
-        shape: the shape; its points are rounded to doubles.
-        report: called with a line about each repair.
-
-    Raises:
-        InputError: if it is not a polygon, or nothing of it is left.
-    """
-    if shape.kind != "polygon":
-        raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
-    rings = [ring for part in shape.parts for ring in (part.points, *part.holes)]
-    if min(map(len, rings)) < 3:
-        raise InputError(f"{shape.where}: a ring of {shorten(shape.name)} has no area")
-    given = _core(shape)
-    if given.is_valid:
-        raise InputError(
-            f"{shape.where}: rings of {shorten(shape.name)} touch each other, and no other polygon "
-            "is the same: fill its holes (--holes fill), or leave such outlines out "
-            "(--skip-invalid)"
-        )
-    valid = shapely.make_valid(given)
-    pieces = [part for unit in _units(valid) for part in unit if part.geom_type == "Polygon"]
-    if not pieces:
-        raise InputError(f"{shape.where}: nothing of {shorten(shape.name)} has an area")
-    whole = shapely.MultiPolygon(pieces) if len(pieces) > 1 else pieces[0]
-    found = list(shapes_of_geometry(whole, shape.where, shape.name))
-    apart = all(a.disjoint(b) for a, b in combinations(pieces, 2))
-    if not apart:
-        found = list(found[0].parts)
-    what = shapely.is_valid_reason(given)
-    report(
-        f"{shape.where}: repaired {shorten(shape.name)} ({what}): "
-        f"{_size(given)} became {_size(whole)}{'' if apart else ', which touch: bodies each'}"
-    )
-    return found
-
-
-def _size(geometry: BaseGeometry) -> str:
-    rings = sum(1 + len(p.interiors) for unit in _units(geometry) for p in unit)
-    count = int(shapely.get_num_coordinates(geometry)) - rings
-    parts = int(shapely.get_num_geometries(geometry))
-    return f"{parts} polygon{'s' * (parts > 1)} of {count} vertices"
 
 
 def geometries_of(

@@ -11,12 +11,8 @@ from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
-import numpy as np
-
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
-from exactpt.geometry.boxes import Boxes, Indices, boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import contains
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import nearest_float, rational, shorten, show
 
@@ -29,15 +25,10 @@ if TYPE_CHECKING:
 DEEPEST: Final = 100
 """Maximum depth to which collections and groups may be nested in a file."""
 
-_MAX_NESTED: Final = 10_000_000
-"""Maximum number of pairs of rings of one outline with one box inside the other."""
-
 Kind: TypeAlias = Literal["point", "line", "polygon"]
 
 DIGITS: Final = 24
 """Number of significant digits of coordinates at an irrational time: more than doubles have."""
-
-_NONE: Final[Indices] = np.empty(0, dtype=np.int64)
 
 
 class Shape(NamedTuple):
@@ -70,6 +61,11 @@ class Shape(NamedTuple):
     def parts(self) -> tuple[Shape, ...]:
         """The parts, as shapes of one part each."""
         return (self._replace(more=()), *self.more)
+
+    def without_holes(self) -> Shape:
+        """Return the shape with its holes filled."""
+        more = [part._replace(holes=()) for part in self.more]
+        return self._replace(holes=(), more=more)
 
     @property
     def rings(self) -> list[Sequence[Point]]:
@@ -146,62 +142,3 @@ def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
     if not all(map(math.isfinite, chain.from_iterable(points))):
         raise InputError(f"{shape.where}: a coordinate is too large for a double")
     return points
-
-
-def nested(rings: Sequence[Sequence[Point]]) -> list[tuple[int, list[int]]]:
-    """Return the outer rings among rings that do not cross, each with its holes, all as indices.
-
-    By the even-odd rule, a ring inside an odd number of others is a hole; it belongs to the
-    innermost outer ring around it.
-
-    Of rings that do not cross, those around a ring are around each other too. So they are the
-    innermost one and those around that, and only boxes around a ring's box need to be tried,
-    from the innermost on. A box around another box contains more boxes.
-
-    Raises:
-        InputError: if too many boxes are inside others.
-    """
-    around = _boxes_around(boxes_of_points(rings))
-    size = [0] * len(rings)
-    for outside in around.values():
-        for j in outside:
-            size[j] += 1
-    outer: list[int | None] = [None] * len(rings)
-    depth = [0] * len(rings)
-    for i in sorted(range(len(rings)), key=lambda i: -size[i]):  # each after its outer ring
-        for j in sorted(around.get(i, ()), key=size.__getitem__):
-            if _inside(rings[i], rings[j]):
-                outer[i], depth[i] = j, depth[j] + 1
-                break
-    holes: dict[int, list[int]] = {i: [] for i in range(len(rings)) if depth[i] % 2 == 0}
-    for i, its in enumerate(outer):
-        if its is not None and depth[i] % 2:
-            holes[its].append(i)
-    return list(holes.items())
-
-
-def _boxes_around(boxes: Boxes) -> dict[int, list[int]]:
-    """For each box, the boxes that contain it; of equal boxes the first contains the second."""
-    inner: list[Indices] = []
-    outer: list[Indices] = []
-    count = 0
-    for first, second in overlapping_pairs(boxes):
-        for a, b in ((first, second), (second, first)):
-            p, q = boxes[a], boxes[b]  # is q inside p
-            inside = (p[:, ::2] <= q[:, ::2]).all(axis=1) & (p[:, 1::2] >= q[:, 1::2]).all(axis=1)
-            inside &= (p != q).any(axis=1) | (a < b)
-            inner.append(b[inside])
-            outer.append(a[inside])
-            count += len(inner[-1])
-        if count > _MAX_NESTED:
-            raise InputError(f"more than {_MAX_NESTED} pairs of its outlines are nested")
-    around: dict[int, list[int]] = {}
-    for b, a in zip(np.concatenate([_NONE, *inner]), np.concatenate([_NONE, *outer]), strict=True):
-        around.setdefault(int(b), []).append(int(a))
-    return around
-
-
-def _inside(ring: Sequence[Point], other: Sequence[Point]) -> bool:
-    corners = set(other)
-    free = next((p for p in ring if p not in corners), None)
-    return free is not None and len(other) > 2 and contains(other, free)

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final, TypeAlias
 from xml.etree import ElementTree as Xml
 
 from exactpt.errors import ExactPTError, InputError
@@ -19,7 +19,10 @@ from exactpt.exchange.drawing import read_drawing, valid_text
 from exactpt.exchange.flattening import NAMESPACE, OUTLINE, Drawing, Window
 from exactpt.exchange.lengths import Matrix
 from exactpt.exchange.losses import Losses
-from exactpt.exchange.shapes import Shape, nested, rounded_rings
+from exactpt.exchange.shapes import Shape, rounded_rings
+from exactpt.geometry.overlay import Part, as_given, evenodd, nonzero
+from exactpt.geometry.polygon import are_collinear
+from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import rational, shorten
 
 if TYPE_CHECKING:
@@ -30,6 +33,11 @@ if TYPE_CHECKING:
 
 _SLACK: Final = 1e-9
 """Relative size of errors of rounding that are allowed: beyond a window, and of a right angle."""
+FillRule: TypeAlias = "Callable[[Sequence[Sequence[Point]]], list[Part]]"
+"""A function from rings to the parts that they fill."""
+
+_FILL_RULES: Final[dict[str, FillRule]] = {"nonzero": nonzero, "evenodd": evenodd}
+
 _MAX_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 _MAX_POINTS: Final = 2_000_000
@@ -40,8 +48,9 @@ def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iter
     """Yield the outlines of a drawing, named by their ``id``.
 
     They are in millimetres if the drawing has a physical width or height, else in the units of its
-    ``viewBox``; its origin stays. A closed subpath is a polygon, with the subpaths inside it as
-    holes (even-odd rule); an open one is a line, filled or not. Text and images are left out.
+    ``viewBox``; its origin stays. The closed subpaths of a path are polygons, by its fill rule:
+    each part that they fill is one, with its holes. An open subpath is a line, filled or not. Text
+    and images are left out.
 
     Args:
         text: the drawing.
@@ -56,7 +65,7 @@ def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iter
     left = _MAX_POINTS
     drawing = read_drawing(text, losses or Losses())
     tolerance /= float(max(drawing.scale))
-    for i, (name, path) in enumerate(_paths(drawing, tolerance)):
+    for i, (name, fill, path) in enumerate(_paths(drawing, tolerance)):
         where = f"outline {i}" + (f" (id {shorten(name)[1:-1]})" if name else "")
         try:
             subpaths = []
@@ -64,13 +73,28 @@ def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iter
                 points = _scaled(_points(sub, tolerance, left), drawing.scale)
                 left -= len(points)
                 subpaths.append((points, sub[-1]))
-            yield from _of_subpaths(subpaths, where, name or f"outline {i}")
+            yield from _of_subpaths(subpaths, _fill_rule(fill), where, name or f"outline {i}")
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
 
 
+def _fill_rule(value: str) -> FillRule:
+    """Return the function of a fill rule of CSS.
+
+    Raises:
+        InputError: if it is another value.
+    """
+    rule = _FILL_RULES.get(value.strip().lower())
+    if rule is None:
+        raise InputError(f"fill-rule must be nonzero or evenodd, got {shorten(value)}")
+    return rule
+
+
 def _of_subpaths(
-    subpaths: Sequence[tuple[list[Point], svgelements.PathSegment]], where: str, name: str
+    subpaths: Sequence[tuple[list[Point], svgelements.PathSegment]],
+    fill: FillRule,
+    where: str,
+    name: str,
 ) -> Iterator[Shape]:
     import svgelements
 
@@ -85,8 +109,9 @@ def _of_subpaths(
             rings.append(points)
         else:
             others.append(Shape(where, name, "line", points))
-    for outer, holes in nested(rings):
-        yield Shape(where, name, "polygon", rings[outer], [rings[h] for h in holes])
+    if rings:
+        shape = Shape(where, name, "polygon", rings[0], rings[1:])
+        yield from _filled(shape, fill)
     yield from others
 
 
@@ -98,8 +123,35 @@ def _scaled(points: list[Point], scale: tuple[QQ, QQ]) -> list[Point]:
     return [(x * x_scale, y * y_scale) for x, y in points]
 
 
-def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, svgelements.Path]]:
-    """Yield the outlines of a drawing with their ids, in its units."""
+def _filled(shape: Shape, fill: FillRule) -> Iterator[Shape]:
+    """Yield the polygons that the rings of a shape fill.
+
+    Rings that fill nothing are yielded as they are, and will be refused: one whose points are
+    collinear, and all of them, if they cancel each other out, as a shape with holes.
+    """
+    rings = shape.rings
+    if len(rings) == 1 and _is_surely_simple(rings[0]):
+        yield shape
+        return
+    flat = [ring for ring in rings if are_collinear(ring)]
+    others = [ring for ring in rings if not are_collinear(ring)]
+    parts = as_given(fill(others), others)
+    if others and not parts:
+        parts = [Part(others[0], others[1:])]
+    for outline, holes in parts:
+        yield shape._replace(points=outline, holes=holes)
+    for ring in flat:
+        yield shape._replace(points=ring, holes=())
+
+
+def _is_surely_simple(ring: Sequence[Point]) -> bool:
+    open_ring = ring[:-1] if ring[0] == ring[-1] else ring
+    xs, ys = zip(*((float(x), float(y)) for x, y in open_ring), strict=True)
+    return len(open_ring) > 2 and is_surely_simple(xs, ys, closed=True)
+
+
+def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, str, svgelements.Path]]:
+    """Yield the outlines of a drawing with their ids and fill rules, in its units."""
     try:
         import svgelements
     except ImportError:
@@ -113,7 +165,7 @@ def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, svgelement
                 number = element.values[OUTLINE]
                 path = _mapped(svgelements.Path(element), drawing.matrices[number], tolerance)
                 _check_windows(path, drawing.windows[number])
-                yield element.id or "", path
+                yield element.id or "", element.values.get("fill-rule", "nonzero"), path
     except (ExactPTError, MemoryError):
         raise
     except Exception as error:  # any error that a damaged drawing causes in the parser

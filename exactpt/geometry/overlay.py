@@ -63,8 +63,8 @@ def nonzero(rings: Sequence[Sequence[Point]]) -> list[Part]:
     """Return the parts of the plane around which the rings turn, counted with their directions.
 
     Each ring of the result begins with the vertex that comes first in the rings given, and parts
-    are in the order of these vertices. Vertices of the rings given stay vertices, even where the
-    boundary is straight; crossings are vertices where it bends.
+    are in the order of these vertices. Where the boundary is straight, a point is a vertex if a
+    given edge along it begins or ends there.
 
     Args:
         rings: the vertices of closed rings; a first one may be repeated at the end.
@@ -98,6 +98,30 @@ def union(parts: Iterable[Part]) -> list[Part]:
     return nonzero(rings)
 
 
+def as_given(parts: Iterable[Part], rings: Iterable[Sequence[Point]]) -> list[Part]:
+    """Return the parts, those rings of them that have not changed as they were given.
+
+    So their vertices keep their numbers, which depend on the first vertex and on the orientation.
+    """
+    given: dict[tuple[Point, ...], Sequence[Point]] = {}
+    for ring in rings:
+        given.setdefault(_cycle(ring), ring)
+
+    def original(ring: Sequence[Point]) -> Sequence[Point]:
+        return given.get(_cycle(ring), ring)
+
+    return [Part(original(outline), list(map(original, holes))) for outline, holes in parts]
+
+
+def _cycle(ring: Sequence[Point]) -> tuple[Point, ...]:
+    """Return the vertices of a ring, the same for the ring turned and begun elsewhere."""
+    points = [p for p, before in zip(ring, [*ring[-1:], *ring[:-1]], strict=True) if p != before]
+    first = min(range(len(points)), key=points.__getitem__, default=0)
+    turned = points[first:] + points[:first]
+    reverse = turned[:1] + turned[:0:-1]
+    return tuple(min(turned, reverse))
+
+
 def _turned(ring: Sequence[Point], *, is_left: bool) -> Sequence[Point]:
     """Return a ring that does not cross itself, counter-clockwise (``is_left``) or clockwise."""
     return ring if is_counter_clockwise(ring) == is_left else ring[::-1]
@@ -124,8 +148,9 @@ class _Arrangement:
 
     Attributes:
         points: the vertices, in their order.
-        given: for each vertex the number of other points that come first in the rings given.
-        crossing: that number of a vertex that is a crossing.
+        given: for each vertex the number of other points that come first in the rings given; of
+            crossings, that of all points given.
+        neighbours: for each vertex the other ends of the edges at it.
         pieces: the pieces of edges with a step that is not 0, in no order.
     """
 
@@ -138,14 +163,18 @@ class _Arrangement:
             for edge in zip(numbers, numbers[1:] + numbers[:1], strict=True)
             if edge[0] != edge[1]
         ]
-        self.crossing = len(self._unsorted)
+        size = len(self._unsorted)
         cuts = self._cuts(edges)
         order = _in_order(self._unsorted)
         rank = [0] * len(order)
         for k, number in enumerate(order):
             rank[number] = k
         self.points: list[Point] = [self._unsorted[number] for number in order]
-        self.given: list[int] = [min(number, self.crossing) for number in order]
+        self.given: list[int] = [min(number, size) for number in order]
+        self.neighbours: list[list[int]] = [[] for _ in order]
+        for first, last in edges:
+            self.neighbours[rank[first]].append(rank[last])
+            self.neighbours[rank[last]].append(rank[first])
         self.pieces: list[_Piece] = _pieces(edges, cuts, rank)
         self._near = _near(self.points)
 
@@ -378,8 +407,8 @@ class _Boundary:
             part_of |= dict.fromkeys(ring, number)
             parts[number].append(self._vertices(ring))
         for rings in parts:
-            rings[1:] = sorted(rings[1:], key=self._place)
-        parts.sort(key=lambda rings: self._place(rings[0]))
+            rings[1:] = sorted(rings[1:], key=lambda ring: self._place(ring[0]))
+        parts.sort(key=lambda rings: self._place(rings[0][0]))
         points = self._arrangement.points
         found = [[[points[vertex] for vertex in ring] for ring in rings] for rings in parts]
         return [Part(outline, holes) for outline, *holes in found]
@@ -451,18 +480,23 @@ class _Boundary:
         return right if self._goes_right[piece] else left
 
     def _vertices(self, ring: list[int]) -> list[int]:
-        """Return the vertices of a ring, without crossings where it is straight.
+        """Return the vertices of a ring, of which the one that comes first in the rings given is first.
 
-        The vertex that comes first in the rings given is the first.
+        Points in which others only touch or cross it are left out.
         """
         every = [self._start(piece) for piece in ring]
-        around = zip(every[-1:] + every[:-1], every, every[1:] + every[:1], strict=True)
-        given, orientation = self._arrangement.given, self._arrangement.orientation
-        crossing = self._arrangement.crossing
-        kept = [b for a, b, c in around if given[b] < crossing or orientation(a, b, c)]
-        first = min(range(len(kept)), key=lambda k: (given[kept[k]], kept[k]))
+        pairs = zip(every[-1:] + every[:-1], every, every[1:] + every[:1], strict=True)
+        kept = [vertex for before, vertex, after in pairs if self._is_vertex(before, vertex, after)]
+        first = min(range(len(kept)), key=lambda k: self._place(kept[k]))
         return kept[first:] + kept[:first]
 
-    def _place(self, ring: list[int]) -> tuple[int, int]:
-        """Return the place of the first vertex of a ring in the rings given."""
-        return self._arrangement.given[ring[0]], ring[0]
+    def _is_vertex(self, before: int, vertex: int, after: int) -> bool:
+        """Return True if the boundary bends at a point, or an edge along it begins or ends there."""
+        orientation = self._arrangement.orientation
+        return bool(orientation(before, vertex, after)) or any(
+            orientation(before, vertex, end) == 0 for end in self._arrangement.neighbours[vertex]
+        )
+
+    def _place(self, vertex: int) -> tuple[int, int]:
+        """Return the place of a vertex in the rings given; of crossings behind all of these."""
+        return self._arrangement.given[vertex], vertex

@@ -26,6 +26,13 @@ def signed_area2(points: Sequence[Point]) -> QQ:
     return total
 
 
+def are_collinear(points: Sequence[Point]) -> bool:
+    """Return True if all points are on one line."""
+    first = points[0]
+    second = next((p for p in points if p != first), first)
+    return not any(orientation(first, second, p) for p in points)
+
+
 def is_counter_clockwise(points: Sequence[Point]) -> bool:
     """Return True if a polygon of nonzero area is counter-clockwise.
 

@@ -67,6 +67,8 @@ _NUMBER: Final = re.compile(
     r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?\Z", re.ASCII
 )  # possessive quantifiers: no backtracking, so a long invalid text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
+_MAX_DECIMALS: Final = 15
+"""Maximum number of decimals of a coordinate in a message; with more it is a quotient."""
 _INTEGERS: Final = 1 << 53
 _EXACT: Final[type[QQ]] = type(QQ())
 _INEXACT: Final = ("bool", "mpfr")
@@ -159,9 +161,28 @@ def shorten(text: object, limit: int = 60) -> str:
 
 
 def show(*numbers: QQ) -> str:
-    """Return a number, or (x, y), as text for a message; long numbers are cut."""
-    words = [shorten(str(q))[1:-1] for q in numbers]
-    return words[0] if len(words) == 1 else f"({', '.join(words)})"
+    """Return a number, or (x, y), as text for a message; long numbers are cut.
+
+    The coordinates of a point are short decimals where these are exact, as in files of shapes.
+    """
+    if len(numbers) == 1:
+        return shorten(str(numbers[0]))[1:-1]
+    return f"({', '.join(shorten(_short_decimal(q) or str(q))[1:-1] for q in numbers)})"
+
+
+def _short_decimal(value: QQ) -> str | None:
+    """Return a number with at most `_MAX_DECIMALS` decimals, written so; None for another one.
+
+    >>> _short_decimal(QQ(-13383529, 1000000)), _short_decimal(QQ(1, 3)), _short_decimal(QQ(7))
+    ('-13.383529', None, '7')
+    """
+    scaled = value * 10**_MAX_DECIMALS
+    if scaled.denominator != 1:
+        return None
+    digits = str(abs(scaled.numerator)).rjust(_MAX_DECIMALS + 1, "0")
+    decimals = digits[-_MAX_DECIMALS:].rstrip("0")
+    minus = "-" if value < 0 else ""
+    return f"{minus}{digits[:-_MAX_DECIMALS]}{decimals and '.'}{decimals}"
 
 
 def of_double(x: float) -> QQ:

@@ -71,12 +71,12 @@ def _fault_shown(body: Body, points: Sequence[Point], fault: EdgeFault) -> str:
     meet = f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
     if kind is FaultKind.SAME_RING:
         return meet
+    of_parts = {k for k, rings in enumerate(body.parts) for ring in rings if {i, j} & {*ring}}
+    are_two_parts = len(of_parts) > 1
+    joins = "; exactpt.union joins such parts" if are_two_parts else ""
     if kind is FaultKind.CROSSING:
-        return f"two rings cross: {meet}"
-    of_parts = [k for k, rings in enumerate(body.parts) for ring in rings if {i, j} & {*ring}]
-    joins = len(set(of_parts)) > 1
-    remedy = "exactpt.union joins such parts" if joins else "make one ring of the two"
-    return f"two rings have a common piece: {meet}; {remedy}"
+        return f"two rings cross: {meet}{joins}"
+    return f"two rings have a common piece: {meet}{joins or '; make one ring of the two'}"
 
 
 def _check_areas(body: Body, points: Sequence[Point]) -> None:
@@ -111,8 +111,8 @@ def _check_nesting(body: Body, points: Sequence[Point], touches: Sequence[RingTo
         p = own_point[i]
         return {j for j in near[i] if contains(points[rings[j].start : rings[j].stop], p)}
 
-    def fault(ring: range, what: str) -> InputError:
-        return InputError(f"{what}: vertex {ring.start} at {show(*points[ring.start])}")
+    def fault(ring: range, what: str, remedy: str = "") -> InputError:
+        return InputError(f"{what}: vertex {ring.start} at {show(*points[ring.start])}{remedy}")
 
     for outline in outlines:
         k = parts[outline]
@@ -125,7 +125,11 @@ def _check_nesting(body: Body, points: Sequence[Point], touches: Sequence[RingTo
         outer = around(outline)
         for other in sorted(outer.intersection(outlines)):
             if not any(parts[j] == parts[other] and j != other for j in outer):
-                raise fault(rings[outline], "a part is inside another part")
+                raise fault(
+                    rings[outline],
+                    "a part is inside another part",
+                    remedy="; exactpt.union joins such parts",
+                )
 
 
 def _point_on_no_other(

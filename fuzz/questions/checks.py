@@ -32,7 +32,7 @@ from exactpt.simulation.simulation import Simulation
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.start import start_tiling
-from fuzz import filter_attacks
+from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.all_pairs import touches_at
 from fuzz.questions.chosen import wrong_choice
@@ -65,13 +65,13 @@ class Checked(NamedTuple):
     """A case that has been checked.
 
     Attributes:
-        scene: its scene, the query in space, or the case of a filter.
+        scene: its scene, the query in space, the case of a filter, or the drawing.
         kind: what happens in it, for the table of a run.
         fault: a difference from the definition; None without one.
         signs: number of signs, roots and orders that CGAL has decided.
     """
 
-    scene: Scene | SpaceQuery | filter_attacks.Case
+    scene: Scene | SpaceQuery | filter_attacks.Case | overlays.Drawing
     kind: str
     fault: str | None
     signs: int = 0
@@ -378,9 +378,16 @@ def _scope(random: Random) -> Checked:
     return Checked(one.scene, kind, f"scene {number}: {said}" if faults else None)
 
 
+def _overlay(random: Random) -> Checked:
+    """The parts that rings fill by each rule, and the union of the parts of each ring."""
+    drawing = overlays.random_drawing(random)
+    return Checked(drawing, drawing.kind, overlays.fault_of_drawing(drawing))
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "small-scope": _scope,
     "flips": _flips,
+    "overlay": _overlay,
     "filters": _filters,
     "distance": _distance,
     "chosen": _chosen,

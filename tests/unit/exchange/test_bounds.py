@@ -12,7 +12,7 @@ from commands import code_of
 
 from exactpt import InputError, Scene, read_shapes
 from exactpt.cli.alarm import GRACE
-from exactpt.exchange import bodies, shapes, svg
+from exactpt.exchange import bodies, svg
 from exactpt.exchange.drawing import read_drawing
 from exactpt.exchange.losses import Losses
 from exactpt.files import read_bytes
@@ -150,36 +150,6 @@ def test_many_bodies_of_one_name(tmp_path, how):
     names = [body.name for body in read_shapes(tmp_path / "shapes.geojson").bodies]
 
     assert names == ["a", *(f"a {i}" for i in range(2, 3001))]
-
-
-def rings(kind, count):
-    if kind == "apart":
-        corners = [(3 * (i % 60), 3 * (i // 60), 1) for i in range(count)]
-    else:
-        corners = [(i, i, 2 * (count - i)) for i in range(count)]
-    return [[(x, y), (x + a, y), (x + a, y + a), (x, y + a)] for x, y, a in corners]
-
-
-@pytest.mark.long("concentric")
-@pytest.mark.parametrize("kind", ["apart", "concentric"])
-def test_many_rings_of_one_path(monkeypatch, kind):
-    inside, asked = shapes._inside, []
-    monkeypatch.setattr(shapes, "_inside", lambda *pair: asked.append(pair) or inside(*pair))
-
-    found = shapes.nested(rings(kind, 1000))
-
-    assert len(asked) <= 1000
-    if kind == "apart":
-        assert found == [(i, []) for i in range(1000)]
-    else:
-        assert found == [(i, [i + 1]) for i in range(0, 1000, 2)]
-
-
-def test_rings_nested_without_end_are_refused(monkeypatch):
-    monkeypatch.setattr(shapes, "_MAX_NESTED", 1000)
-
-    with pytest.raises(InputError, match="more than 1000 pairs of its outlines are nested"):
-        shapes.nested(rings("concentric", 100))
 
 
 @pytest.mark.parametrize("command", ["collide", "convert"])

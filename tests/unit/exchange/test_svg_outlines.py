@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from exactpt import Body, InputError, Scene
 from exactpt.exchange.bodies import scene_of
 from exactpt.exchange.lengths import matrix_of
-from exactpt.exchange.shapes import nested, shapes_at
+from exactpt.exchange.shapes import shapes_at
 from exactpt.exchange.svg import shapes_of, svg_of
 from exactpt.kernel.numbers import QQ
 
@@ -147,17 +147,6 @@ def test_subpaths_inside_are_holes_and_islands():
     assert [body.name for body in scene_of(found, holes="fill").bodies] == ["o", "o 2", "o 3"]
 
 
-@given(st.permutations(range(6)))
-def test_nested_rings_alternate(order):
-    """A ring in k others is a hole of the next one if k is odd."""
-    rings = [[(QQ(x), QQ(y)) for x, y in ((-r, -r), (r, -r), (r, r), (-r, r))] for r in range(1, 7)]
-    shuffled = [rings[k] for k in order]
-
-    found = {shuffled[i][2][0]: [shuffled[h][2][0] for h in holes] for i, holes in nested(shuffled)}
-
-    assert found == {6: [5], 4: [3], 2: [1]}
-
-
 @every(
     "text, message",
     [
@@ -174,7 +163,6 @@ def test_nested_rings_alternate(order):
             drawing('<g transform="scale(1 2)"><rect width="-1e308" height="4" rx="1"/></g>'),
             "rect: width: it is negative",
         ),
-        (drawing('<path id="b" d="M0 0l2 2v-2l-2 1z"/>'), r"\(id b\): body 'b': not a simple poly"),
     ],
 )
 def test_what_is_refused(text, message):

@@ -1,0 +1,54 @@
+"""Polygons of files that are not valid, replaced by valid ones: the even-odd rule, exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import Shape, together
+from exactpt.geometry.overlay import Part, as_given, evenodd, union
+from exactpt.kernel.numbers import shorten
+
+
+def mended(shape: Shape) -> Shape:
+    """Return the polygons that a shape of any rings fills, as the parts of one shape.
+
+    Each part of the shape fills what is inside an odd number of its rings; what several parts fill
+    counts once. Vertices are those given and exact crossings. Where the boundary meets itself in a
+    point, the parts of the result meet there, so each is valid.
+
+    A line that ends where it began is such a polygon.
+
+    Raises:
+        InputError: if the shape is not a polygon, or fills nothing.
+    """
+    if shape.kind != "polygon" and (len(shape.points) < 4 or shape.points[0] != shape.points[-1]):
+        raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
+    filled = [evenodd(part.rings) for part in shape.parts]
+    parts = filled[0] if len(filled) == 1 else union(part for some in filled for part in some)
+    if not parts:
+        raise InputError(
+            f"{shape.where}: nothing of {shorten(shape.name)} has an area: remove it, or leave "
+            "such shapes out (--skip-invalid)"
+        )
+    return of_parts(shape, as_given(parts, [ring for part in shape.parts for ring in part.rings]))
+
+
+def of_parts(shape: Shape, parts: Sequence[Part]) -> Shape:
+    """Return a shape with other parts, at least one."""
+    first = shape._replace(kind="polygon", more=())
+    return together([first._replace(points=part.outline, holes=part.holes) for part in parts])[0]
+
+
+def repair_report(shape: Shape, repaired: Shape, fault: str) -> str:
+    """Return a line about a repair."""
+    return (
+        f"{shape.where}: repaired {shorten(shape.name)} ({fault}): "
+        f"{_size(shape)} became {_size(repaired)}"
+    )
+
+
+def _size(shape: Shape) -> str:
+    count = len(shape.parts)
+    vertices = sum(len(ring) - (ring[0] == ring[-1]) for part in shape.parts for ring in part.rings)
+    return f"{count} polygon{'s' * (count > 1)} of {vertices} vertices"

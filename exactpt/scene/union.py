@@ -1,0 +1,123 @@
+"""The union of bodies that move alike, as one body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from exactpt.errors import InputError
+from exactpt.geometry import overlay
+from exactpt.geometry.overlay import Part
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, rational, shorten
+from exactpt.motion.body import Body
+from exactpt.motion.motions import REST
+from exactpt.motion.shape import listed
+from exactpt.scene.scene import Scene
+
+
+def union(bodies: Iterable[Body], *, name: str) -> Body:
+    """Return the union of bodies that move alike, as one body.
+
+    Bodies that overlap, or have edges in common, cannot be the parts of one body, and no tiling
+    holds two bodies that touch. Their union has no such edges: its rings are what bounds the
+    bodies together, exactly. Its vertices are vertices of the bodies and crossings of their edges;
+    a vertex stays where its edges become straight. Parts that have only single points in common
+    stay parts.
+
+    >>> from exactpt import Translation
+    >>> motion = Translation([0, 1])
+    >>> first = Body("first", [(0, 0), (2, 0), (2, 2), (0, 2)], motion)
+    >>> second = Body("second", [(1, 1), (3, 1), (3, 3), (1, 3)], motion)
+    >>> both = union([first, second], name="both")
+    >>> both
+    <Body 'both': polygon of 8 vertices>
+    >>> [(int(x), int(y)) for x, y in both.at(0)]
+    [(0, 0), (2, 0), (2, 1), (3, 1), (3, 3), (1, 3), (1, 2), (0, 2)]
+
+    Args:
+        bodies: polygons without a radius that do not deform, with equal motions or all at rest.
+            The parts of one body may overlap, too: each needs to be valid only by itself.
+        name: the name of the result.
+
+    Returns:
+        A body with the motion of the first one, without properties. Vertices and edges are numbered
+        anew: each outline is counter-clockwise, each hole clockwise, and begins with the vertex
+        that comes first in the bodies.
+
+    Raises:
+        InputError: if a body is not such a polygon or not valid, if motions differ, or if there is
+            no body.
+    """
+    given = listed("bodies", bodies)
+    if not given:
+        raise InputError("union: at least one body is needed")
+    for body in given:
+        _check_polygon(body)
+    first = given[0]
+    other = next((body for body in given if body.motion != first.motion), None)
+    if other is None:
+        motion, outlines = first.motion, [(body, _rest_points(body)) for body in given]
+    elif all(map(_is_at_rest, given)):
+        motion, outlines = REST, [(body, body._at(QQ(0))) for body in given]
+    else:
+        raise InputError(
+            f"union: bodies {shorten(first.name)} and {shorten(other.name)} move differently: only "
+            "bodies with equal motions, or at rest, can be united"
+        )
+    parts = [part for body, points in outlines for part in _parts(body, points)]
+    made = [{"vertices": part.outline, "holes": part.holes} for part in overlay.union(parts)]
+    return Body(name, motion=motion, parts=made)
+
+
+def _check_polygon(body: object) -> None:
+    if not isinstance(body, Body):
+        raise InputError(f"union: not a body: {shorten(body)}")
+    if body._radius:
+        raise InputError(
+            f"union: body {shorten(body.name)} has a radius: only polygons without a radius can be "
+            "united"
+        )
+    if not body.has_interior:
+        raise InputError(
+            f"union: body {shorten(body.name)} has no area: only polygons can be united"
+        )
+
+
+def _rest_points(body: Body) -> list[Point]:
+    """Return the vertices of a body in its rest frame."""
+    shapes = {frame.vertices for frame in body.keyframes}
+    if len(shapes) == 1:
+        return [(rational(x), rational(y)) for x, y in shapes.pop()]
+    if shapes or any(f.degree > 0 for vertex in body.vertices for f in vertex):
+        raise InputError(
+            f"union: body {shorten(body.name)} deforms: only bodies that keep their shape can be "
+            "united"
+        )
+    return [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+
+
+def _is_at_rest(body: Body) -> bool:
+    """Return True if no vertex ever moves."""
+    pieces = [body._piece_after(t) for t in (QQ(0), *body._breakpoints)]
+    coordinates = [f for piece in pieces for p in piece.tracks for f in (p.x, p.y, p.w)]
+    return all(len(f) <= 1 for f in coordinates)
+
+
+def _parts(body: Body, points: Sequence[Point]) -> list[Part]:
+    """Return the parts of a body.
+
+    Raises:
+        InputError: if one of them is not valid.
+    """
+    parts: list[Part] = []
+    for outline, *holes in body.parts:
+        part = Part(
+            points[outline.start : outline.stop],
+            [points[hole.start : hole.stop] for hole in holes],
+        )
+        try:
+            Scene([Body(body.name, part.outline, holes=part.holes)])
+        except InputError as error:
+            raise InputError(f"union: {error}") from None
+        parts.append(part)
+    return parts
