@@ -31,7 +31,7 @@ RULES: Final[dict[str, tuple[Callable[[Rings], list[Part]], Callable[[int], bool
 """For each fill rule the function, and which winding numbers are filled."""
 
 KINDS: Final = (
-    "integers", "several", "degenerate", "fractions", "doubles", "far", "out of range",
+    "integers", "several", "framed", "degenerate", "fractions", "doubles", "far", "out of range",
 )  # fmt: skip
 
 
@@ -55,11 +55,19 @@ def random_drawing(random: Random) -> Drawing:
         [(QQ(random.randint(0, size)), QQ(random.randint(0, size))) for _ in range(length)]
         for length in [random.randint(3, 10) for _ in range(count)]
     ]
+    if kind == "framed":  # each ring in a frame: it is a hole there
+        frames = [_square(-random.randint(0, 2), size + random.randint(0, 2)) for _ in rings]
+        rings = [ring for pair in zip(frames, rings, strict=True) for ring in pair]
     if kind == "degenerate":
         rings = [_worse(random, ring) for ring in rings]
         rings += [random.choice(rings)[:: random.choice([1, -1])] for _ in range(2)]
     scale, shift = _placement(kind, random)
     return Drawing(kind, [[(x * scale + shift, y * scale - shift) for x, y in r] for r in rings])
+
+
+def _square(low: int, high: int) -> Ring:
+    corners = [(low, low), (high, low), (high, high), (low, high)]
+    return [(QQ(x), QQ(y)) for x, y in corners]
 
 
 def _placement(kind: str, random: Random) -> tuple[QQ, QQ]:
@@ -98,7 +106,8 @@ def fault_of_drawing(drawing: Drawing) -> str | None:
         fault = fault_of_parts(fill(rings), rings, lambda numbers, f=is_filled: f(sum(numbers)))
         if fault is not None:
             return f"{name}: {fault}"
-    separate = [part for ring in rings for part in evenodd([ring])]
+    groups = [rings[k : k + 2] for k in range(0, len(rings), 2)]
+    separate = [part for group in groups for part in evenodd(group)]
     fault = fault_of_parts(
         union(separate), [ring for part in separate for ring in part.rings], _is_in_any(separate)
     )
