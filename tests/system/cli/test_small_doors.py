@@ -53,6 +53,7 @@ def test_the_version_says_whether_the_package_is_compiled():
     assert run("--version").output == f"exactpt, version {exactpt.__version__}, {kind}\n"
 
 
+@pytest.mark.long
 def test_subpackages_are_attributes_without_an_import():
     code = "import exactpt.testing as t; print(t.space.__name__, t.strategies.__name__)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -182,6 +183,7 @@ NEEDS = {"outline_of_text": "fontTools", "million_pairs": "pyarrow", "robot_arm"
          "robot_cell": "scipy"}  # fmt: skip
 
 
+@pytest.mark.long
 @every("script", SCRIPTS)
 def test_each_script_is_listed_and_asks_for_its_arguments(script):
     listed = (ROOT / "docs" / "examples" / "README.md").read_text()

@@ -19,7 +19,10 @@ PACKAGE = Path(exactpt.__file__).parent
 LIMIT = 20.0
 """Seconds that a child has."""
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork"),
+]
 
 
 def result_of_child(job):
@@ -49,7 +52,6 @@ QUESTIONS = [
 ]  # fmt: skip
 
 
-@pytest.mark.long
 @every("name", QUESTIONS)
 def test_a_child_computes_while_threads_do_the_same(name, tmp_path):
     world, over = World(tmp_path), threading.Event()

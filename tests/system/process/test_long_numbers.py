@@ -25,6 +25,8 @@ from exactpt import (
 )
 from exactpt.proof.handout import checker_file
 
+pytestmark = pytest.mark.long
+
 DIGITS = "7" * 9999 + "9"
 """10,000 digits: as many as a scene may have."""
 
@@ -39,7 +41,6 @@ def limited():
     sys.set_int_max_str_digits(limit)
 
 
-@pytest.mark.long
 @every("name", CALLS)
 def test_a_call_with_long_numbers_needs_no_limit(name, tmp_path, limited):
     CALLS[name](long_world(tmp_path))
@@ -101,7 +102,6 @@ def test_integers_are_read_and_written_in_pieces(limited):
     assert proof_scene.written(Fraction(-(10**700), 3)) == f"-1{'0' * 700}/3"
 
 
-@pytest.mark.long
 def test_long_integers_take_less_than_quadratic_time(limited):
     """Ten times the digits take a hundred times as long by digits one after the other."""
 

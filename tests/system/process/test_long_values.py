@@ -10,6 +10,8 @@ import exactpt
 import exactpt.testing
 from exactpt.brief import LONGEST
 
+pytestmark = pytest.mark.long
+
 LONG = "N" * 20_000
 SHAPE = [(0, 0), (1, 0), (0, 1)]
 

@@ -29,6 +29,8 @@ from exactpt.cli import all_commands
 from exactpt.cli.alarm import time_limit
 from exactpt.scene.generate import generate
 
+pytestmark = pytest.mark.long
+
 COMMANDS = {*all_commands(), "a command that is none"}
 WITH_WORKERS = {"batch.run", "batch.Summary", "batch", "batch --jobs"}
 TIMED = {"Simulation.max_seconds", *WITH_WORKERS}

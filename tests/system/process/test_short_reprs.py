@@ -12,6 +12,8 @@ from public_calls import CALLS, LONG, REFUSED, World, long_world
 import exactpt
 from exactpt.brief import LONGEST, in_brief
 
+pytestmark = pytest.mark.long
+
 COMMON = (str, bytes, int, float, bool, type(None), Fraction, np.ndarray, np.generic, dict)
 """Types of Python and numpy, which have a ``repr`` of their own."""
 

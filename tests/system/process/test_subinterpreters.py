@@ -8,6 +8,8 @@ import pytest
 
 import exactpt
 
+pytestmark = pytest.mark.long
+
 SEARCH = """
 from exactpt import Body, Scene, Translation, first_contact
 point = Body("p", [(0, 0)], Translation([0, 1]))
