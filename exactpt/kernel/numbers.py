@@ -155,7 +155,7 @@ def shorten(text: object, limit: int = 60) -> str:
     """Return the ``repr`` of a value, cut so that a message stays one readable line."""
     try:
         shown = " ".join(repr(text).splitlines())
-    except ValueError:  # an integer has more digits than Python writes
+    except Exception:  # an integer has more digits than Python writes, or a caller's class fails
         return in_brief(text, limit)
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
 

@@ -325,6 +325,16 @@ def test_bug_a_number_longer_than_python_writes_is_told_in_a_message():
         rationals(10**5000, 2, "a point has two coordinates")
 
 
+def test_a_value_whose_repr_fails_is_shown_in_a_message():
+    class Odd:
+        def __repr__(self):
+            raise RuntimeError
+
+    assert shorten(Odd()).startswith("<test_numbers.test_a_value")
+    with pytest.raises(InputError, match="not a number: <"):
+        rational(Odd())
+
+
 def poly(*coefficients):
     return tuple(map(ZZ, coefficients))
 
