@@ -153,8 +153,8 @@ class PosePath(Pieces):
         _check_place_error(self._place_error)
         if not 0 <= self._assumed_angle_error < self._error:
             raise InputError(
-                f"an assumed_angle_error is a part of the error, {show(self._error)}: "
-                f"{show(self._assumed_angle_error)}"
+                f"an assumed_angle_error must be at least 0 and less than the error, "
+                f"{show(self._error)}, got {show(self._assumed_angle_error)}"
             )
         for i, (before_it, pose) in enumerate(pairwise(self._poses)):
             end = self._times[i + 1]

@@ -279,7 +279,7 @@ def test_the_assumed_part_of_a_place_error_is_what_fitting_leaves():
 @pytest.mark.parametrize("assumed", ["-1/1000", "1/100", 1])
 def test_an_assumed_error_that_is_no_part_of_the_error_is_refused(assumed):
     path = PosePath([0, 1], [(0, 0, 0)], error="1/100")
-    with pytest.raises(InputError, match="assumed_angle_error is a part of the error, 1/100"):
+    with pytest.raises(InputError, match="must be at least 0 and less than the error, 1/100, got"):
         PosePath.of_pieces(path.pieces, [0, 1], [(0, 0, 0)], "1/100", 0, assumed)
 
 
