@@ -7,6 +7,7 @@ the abscissas of all vertices and crossings, in which edges do not cross, and co
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import combinations, pairwise
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
@@ -99,11 +100,17 @@ def _worse(random: Random, ring: Ring) -> Ring:
     return found
 
 
+def _is_filled_by_sum(is_filled: Callable[[int], bool], numbers: Sequence[int]) -> bool:
+    """Return True if a rule fills a point with these winding numbers, one of each ring."""
+    return is_filled(sum(numbers))
+
+
 def fault_of_drawing(drawing: Drawing) -> str | None:
     """Return the difference of the filled parts of a drawing from the definition; None if none."""
     rings = drawing.rings
     for name, (fill, is_filled) in RULES.items():
-        fault = fault_of_parts(fill(rings), rings, lambda numbers, f=is_filled: f(sum(numbers)))
+        is_inside = partial(_is_filled_by_sum, is_filled)
+        fault = fault_of_parts(fill(rings), rings, is_inside)
         if fault is not None:
             return f"{name}: {fault}"
     groups = [rings[k : k + 2] for k in range(0, len(rings), 2)]
