@@ -41,7 +41,7 @@ DOORS = {
     "another body that is missing": lambda w: exactpt.clearance(w.scene, LONG, "x" + LONG),
     "dist": lambda w: exactpt.distance(w.scene, "x" + LONG, "b", at=0),
     "dist same": lambda w: exactpt.distance(w.scene, LONG, LONG, at=0),
-    "within": lambda w: exactpt.first_within(w.scene, distance=1, norm=LONG),
+    "within": lambda w: exactpt.first_within(w.scene, "x" + LONG, "b", 1),
     "ignoring": lambda w: exactpt.first_contact(w.scene, ignoring=[[LONG, "y" + LONG]]),
     "ign text": lambda w: exactpt.first_contact(w.scene, ignoring=LONG),
     "between": lambda w: exactpt.first_contact(w.scene, between=[[LONG, "y" + LONG]]),
