@@ -681,9 +681,6 @@ class Body:
         need(shapes == 1, "vertices or keyframes or parts:", data)
         need("holes" not in body or "vertices" in body, "holes without vertices:", data)
         self.name, closed = body["name"], body.get("closed", True)
-        is_integer = isinstance(self.name, Bare) and self.name.removeprefix("-").isdigit()
-        if is_integer and len(self.name) <= 100:
-            self.name = str(self.name)  # the text of its digits
         need(type(self.name) is str and self.name, "a name:", self.name)
         need(isinstance(closed, bool), "closed:", closed)
         self.radius = number(body.get("radius", "0"))

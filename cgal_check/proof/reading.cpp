@@ -453,14 +453,6 @@ const Json* member(const Json& json, std::string_view key) {
   return found;
 }
 
-// An integer as a name is the text of its digits.
-bool is_integer(const Json& json) {
-  if (json.kind != Json::Kind::number || json.text.size() > 100) return false;
-  const std::size_t sign = json.text.front() == '-' ? 1 : 0;
-  return json.text.size() > sign &&
-         json.text.find_first_not_of("0123456789", sign) == std::string::npos;
-}
-
 Body read_body(const Json& json, int first, const Rational& start, bool are_records_verified) {
   allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts", "radius",
                     "properties"});
@@ -469,8 +461,7 @@ Body read_body(const Json& json, int first, const Rational& start, bool are_reco
     throw NoProof("the scene has properties that are no object");
   Body body;
   const Json* name = member(json, "name");
-  const bool is_text = name->kind == Json::Kind::text && !name->text.empty();
-  if (!is_text && !is_integer(*name))
+  if (name->kind != Json::Kind::text || name->text.empty())
     throw NoProof("the scene has a name that is no text, or empty");
   body.name = name->text;
   body.first = first;

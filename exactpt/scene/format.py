@@ -39,8 +39,6 @@ from exactpt.scene.scene import Scene
 
 _RECORDS: Final = ("spin", "path", "spline")
 """The records that may stand beside the pieces of a motion, one at most."""
-_LONGEST_NAME: Final = 100
-"""Number of characters of an integer that is a name."""
 _CONVERT: Final = "exactpt convert makes a scene of such a file"
 
 
@@ -112,8 +110,6 @@ def _scene(data: Json) -> Scene:
 
 def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
-    if isinstance(data, dict) and "name" in data:
-        data = {**data, "name": _name(data["name"])}
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
     allowed = {
@@ -129,7 +125,8 @@ def _body(data: Json, index: int) -> Body:
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
-        raise InputError(f'{where}: "name": expected a text or an integer, got {shown(name)}')
+        advice = f'; write "{name}"' if isinstance(name, Number) and len(name) < 50 else ""
+        raise InputError(f'{where}: "name": expected a text, got {shown(name)}{advice}')
     if sum(key in body for key in ("vertices", "keyframes", "parts")) != 1:
         raise InputError(f'{where}: needs either "vertices" or "keyframes" or "parts"')
     if "holes" in body and "vertices" not in body:
@@ -154,13 +151,6 @@ def _body(data: Json, index: int) -> Body:
     vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)
     holes = _holes(body, where)
     return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius, properties=more)
-
-
-def _name(data: Json) -> Json:
-    """Return a name; an integer is the text of its digits."""
-    if not isinstance(data, Number) or len(data) > _LONGEST_NAME:
-        return data
-    return str(data) if data.removeprefix("-").isdigit() else data
 
 
 def _part(data: Json, where: str) -> dict[str, object]:

@@ -9,14 +9,13 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from commands import code_of
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import body_at, exact
 from strategies import as_rational, fractions, scene_data
 
-from exactpt import Body, InputError, Polynomial, Scene, Translation, check_apart, proof_check
+from exactpt import Body, InputError, Polynomial, Scene, Translation
 from exactpt.motion.motions import REST
 from exactpt.scene.format import load, loads
 from exactpt.scene.written import _of_double, save, scene_bytes, to_json
@@ -256,7 +255,7 @@ WRONG = [
     # names
     ((b, BLOB, "name"), "box", ["'box'", "taken"]),
     ((b, BOX, "name"), "", ["body", "name", "''"]),
-    ((b, BOX, "name"), 1.5, ["body", "name", "1.5"]),
+    ((b, BOX, "name"), 5, ["body", "name", "5"]),
     ((b, BOX, "name"), None, ["body 0", "name", "null"]),
     ((b, BOX, "name"), ["box"], ["body 0", "name", "box"]),
     # the time span
@@ -697,23 +696,3 @@ def test_bug_each_vertex_of_a_body_of_parts_is_written_once(monkeypatch):
 
     assert written == [x for part in parts for vertex in part for x in vertex]
     assert [len(part["vertices"]) for part in data["bodies"][0]["parts"]] == [3] * 9
-
-
-def test_integers_as_names_are_read_by_the_checkers(tmp_path, capsys):
-    """211042114 and "211042114" are the same name; the file has the number."""
-    bodies = [
-        {"name": 211042114, "vertices": [[0, 0], [1, 0], [0, 1]], "motion": {"x": [0, 1]}},
-        {"name": -7, "vertices": [[5, -1], [6, -1], [6, 2], [5, 2]]},
-    ]
-    long, short = tmp_path / "long.json", tmp_path / "short.json"
-    for path, end in ((long, 9), (short, 3)):
-        path.write_text(json.dumps({"exactpt": 1, "time": [0, end], "bodies": bodies}))
-    touch, apart = tmp_path / "touch.proof", tmp_path / "apart.apart"
-    assert code_of("collide", long, "--proof", touch) == 0
-    assert code_of("collide", short, "--certificate", apart) == 0
-
-    assert proof_check.main([str(long), str(touch)]) == 0
-    assert check_apart.main([str(short), str(apart)]) == 0
-    out = capsys.readouterr().out
-    assert "first contact at T = 4" in out
-    assert "'211042114'" in out
