@@ -26,13 +26,13 @@ def arm() -> list[exactpt.Body]:
         angle = np.array([theta(knots[:-1], d) / (6, 2, 1, 1)[3 - d] for d in (3, 2, 1, 0)])
         turned = ((angle[0] * h + angle[1]) * h + angle[2]) * h
         angle[3] = np.cumsum([angle[3, 0], *turned[:-1]])  # each piece begins where one ends
+        assert abs(angle[3] - theta(knots[:-1])).max() < ROUNDING  # noqa: S101 - the spline
         curve = PPoly(np.dstack([CubicHermiteSpline(knots, place, speed).c, angle]), knots)
         path = exactpt.PosePath.of_curve(curve).with_place_error(error)
         links.append(exactpt.Body(f"link {k + 1}", [(0, 0), (length, 0)], path, radius="1/10"))
         unit = np.exp(1j * theta(knots))
-        swept = 1j * theta(knots, 1) * unit
         place = place + length * np.array([unit.real, unit.imag]).T
-        speed = speed + length * np.array([swept.real, swept.imag]).T
+        speed = speed + length * (theta(knots, 1) * np.array([-unit.imag, unit.real])).T
         third, second, first = abs(angle[0]) * 6, abs(angle[1]) * 2, abs(angle[2])
         second, first = second + h * third, first + h * second + h * h * third
         fourth = first**4 + 6 * first**2 * second + 3 * second**2 + 4 * first * third

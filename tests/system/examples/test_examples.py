@@ -1,5 +1,6 @@
 """The examples of five users run, and print what they are about."""
 
+import importlib
 import json
 import os
 import re
@@ -68,6 +69,34 @@ def test_an_arm_of_three_links():
 
     assert 0 < high - low < 1e-5
     assert gap(low - 1e-6) > 0 > gap(high + 1e-6)
+
+
+@pytest.fixture
+def robot_arm(monkeypatch):
+    pytest.importorskip("scipy")
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    arm = importlib.import_module("robot_arm")
+    monkeypatch.setattr(arm, "WAYPOINTS", [0, 0.7, 2.3, 4])
+    return arm
+
+
+@pytest.mark.long
+def test_an_arm_with_waypoints_between_even_knots(robot_arm, capsys):
+    """The time was computed in doubles by other means: distances of segments of the true arm."""
+    robot_arm.main()
+
+    low, high = map(
+        float, re.search(r"from ([\d.]+) to ([\d.]+) s", capsys.readouterr().out).groups()
+    )
+    assert low <= 1.179422273 <= high
+    assert high - low < 1e-5
+
+
+def test_an_arm_with_pieces_across_waypoints_is_refused(robot_arm, monkeypatch):
+    """Across a waypoint the spline is not one polynomial: a piece ends 10^-5 beside it."""
+    monkeypatch.setattr(robot_arm.np, "union1d", lambda even, _: np.append(even, 4.0))
+    with pytest.raises(AssertionError):
+        robot_arm.arm()
 
 
 @pytest.mark.long
