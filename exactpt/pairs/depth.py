@@ -62,7 +62,9 @@ def _depth_below(body: Body, points: Sequence[Point], x: Point) -> QQ | None:
 @np.errstate(all="ignore")
 def _candidate(polygons: Sequence[tuple[Body, Sequence[Point]]], depth: float) -> Point | None:
     """Return a point that may be deep enough, in doubles; None if none is found."""
-    corners = [np.array([[float(x), float(y)] for x, y in points]) for _, points in polygons]
+    corners = [
+        np.array([[nearest_float(c) for c in point] for point in points]) for _, points in polygons
+    ]
     edges = [
         points[np.array(body.edges)] for (body, _), points in zip(polygons, corners, strict=True)
     ]
