@@ -208,11 +208,11 @@ class _Search:
             for body, error in zip(self._scene.bodies, self._errors, strict=True)
         }
         possible, is_certain = list[tuple[str, str]](), False
-        for pair in self._pairs(touch):
+        for pair in self._pairs(touch):  # of different bodies: each is simple at the start
             check_budget()
             a, b = (by_name[name] for name in pair)
             error = a.error + b.error
-            if pair[0] == pair[1] or _may_meet(a.body, b.body, self._start, error):
+            if _may_meet(a.body, b.body, self._start, error):
                 possible.append(pair)
                 is_certain = is_certain or surely_meet(a.body, b.body, self._start, error)
         return _Start(tuple(possible), is_certain=is_certain)
