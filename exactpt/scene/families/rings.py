@@ -138,7 +138,7 @@ def touching_parts(rng: Random, center: Point) -> list[list[list[Point]]]:
     parts = [[box(x - size, y - size, 2 * size, 2 * size)]]
     touches = 0
     for _ in range(rng.randint(8, 24)):
-        ring = [(x + u, y + v) for u, v in _grid_ring(rng, size)]
+        ring = [(x + u, y + v) for u, v in _grid_ring(rng, size)][:: rng.choice([1, -1])]
         added = [[*rings] for rings in parts]
         if rng.random() < 0.3:
             added.append([ring])

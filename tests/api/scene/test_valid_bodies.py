@@ -32,6 +32,7 @@ from exactpt import (
 from exactpt.batch import Options, answers
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.simulation.saved import tiling_from_json, tiling_to_json
 from fuzz.questions.all_pairs import first_contact_allpairs
 
@@ -159,6 +160,37 @@ class Squeeze:
         return Translation().track(position)
 
 
+class Lower:
+    """A motion of a caller's own class, under which the vertex (4, 0) comes down from (4, 1)."""
+
+    def track(self, position):
+        is_tip = [f(0) for f in position] == [4, 0]
+        return Translation([0], [1, -1] if is_tip else [0]).track(position)
+
+
+def test_rings_that_touch_at_rest_may_be_apart_under_a_motion_of_another_class():
+    """At the start the hole is 1 away from the outline, which it touches at t = 1."""
+    body = notched(Lower())
+    contact = first_contact(Scene([body], (0, 2)))
+    assert (contact.kind, contact.time) == ("self", 1)
+    assert first_contact(Scene([body.with_motion(Translation())], (0, 2))) is None
+    with pytest.raises(InputError, match="its rings touch"):
+        Simulation(Scene([body.with_motion(Translation())], (0, 2)))
+
+
+def test_without_boxes_the_pairs_are_searched_still():
+    """Of a simple body, auto would keep a tiling: most numbers are beyond the doubles."""
+    far = 10**400
+    grown = Affine([[1, ["0", f"1/{far}"]], [["0", f"1/{far}"], 1]], x=[0, far])
+    others = [
+        Body(f"b{i}", [(20 + i * far, 1), (21 + 9 * i, 0), (20 + 9 * i, 3)], grown) for i in (0, 1)
+    ]
+    turning = Rigid([0, "1/100"])
+    simple = Body("simple", SQUARE, turning, holes=[[(4, 1), (5, 2), (3, 2)]])
+    assert PairsSearch(Scene([simple, *others], (0, 1))).lacks_boxes
+    assert first_contact(Scene([notched(turning), *others], (0, 1))) is None
+
+
 @pytest.mark.parametrize(
     ("motion", "vertices", "reason"),
     [
@@ -211,12 +243,18 @@ def test_first_contact_is_that_of_the_hole_whose_side_is_met_first():
         assert first_contact(others, **options).time == 2
 
 
-def test_a_contact_in_the_point_of_the_touch_has_the_incidences_with_both_rings():
-    """The point comes from below to (4, 0), on edge 0 of the outline and vertex 4 of the hole."""
-    scene = scene_of(other=Translation([4], [-1, 1]))
-    contact = first_contact(scene)
+@pytest.mark.parametrize("exact_only", [False, True])
+@pytest.mark.parametrize("motion", [Translation(), Affine([[1, 0], [0, Polynomial([1, "1/2"])]])])
+def test_a_contact_in_the_point_of_the_touch_has_the_incidences_with_both_rings(motion, exact_only):
+    """The point comes from below to (4, 0), on edge 0 of the outline and vertex 4 of the hole.
+
+    The touch of that vertex and that edge is not among them.
+    """
+    scene = scene_of(motion, Translation([4], [-1, 1]))
+    contact = first_contact(scene, exact_only=exact_only)
     assert contrast(first_contact_allpairs(scene), contact) is None
     assert contact.time == 1
+    assert all(pair.body != pair.other for pair in contact.pairs)
     found = {(p.kind, p.edge, p.other_vertex) for p in contact.pairs} | {
         (p.kind, p.vertex) for p in contact.pairs if p.body == "notched"
     }

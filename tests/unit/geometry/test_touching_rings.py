@@ -36,6 +36,18 @@ def test_touches_of_a_vertex_and_an_edge_and_of_two_vertices_are_points():
     assert touches(SQUARE, at_corner) == {(0, 0): {0, 1}}
 
 
+@pytest.mark.parametrize("turn", [1, -1])
+@pytest.mark.parametrize("back", [1, -1])
+def test_touches_do_not_depend_on_the_orientation_of_rings(turn, back):
+    """A hole between two that share its tip; and one in the reflex angle of another."""
+    above, between = [(4, 4), (7, 6), (4, 7)], [(4, 4), (7, 5), (7, 3)]
+    assert touches(SQUARE[::turn], above[::back], between[::turn]) == {(4, 4): {1, 2}}
+    dart, inner = [(1, 1), (7, 4), (1, 7), (4, 4)], [(4, 4), (2, 5), (2, 3)]
+    assert touches(SQUARE[::turn], dart[::back], inner[::turn]) == {(4, 4): {1, 2}}
+    wide = [(4, 4), (6, 6), (6, 2)]
+    assert meetings(SQUARE, dart[::back], wide[::turn]).fault.kind is FaultKind.CROSSING
+
+
 def test_three_rings_in_one_point_are_one_touch():
     one, two, three = (
         [(4, 4), (6, 3), (6, 5)], [(4, 4), (3, 6), (5, 6)], [(4, 4), (2, 3), (2, 5)]
