@@ -42,6 +42,9 @@ def test_touches_do_not_depend_on_the_orientation_of_rings(turn, back):
     """A hole between two that share its tip; and one in the reflex angle of another."""
     above, between = [(4, 4), (7, 6), (4, 7)], [(4, 4), (7, 5), (7, 3)]
     assert touches(SQUARE[::turn], above[::back], between[::turn]) == {(4, 4): {1, 2}}
+    opposite = [(4, 4), (1, 1), (7, 3)]  # leaves the point against the directions of the other
+    assert touches(SQUARE[::turn], above[::back], opposite[::turn]) == {(4, 4): {1, 2}}
+    assert touches(SQUARE[::turn], opposite[::back], above[::turn]) == {(4, 4): {1, 2}}
     dart, inner = [(1, 1), (7, 4), (1, 7), (4, 4)], [(4, 4), (2, 5), (2, 3)]
     assert touches(SQUARE[::turn], dart[::back], inner[::turn]) == {(4, 4): {1, 2}}
     wide = [(4, 4), (6, 6), (6, 2)]
