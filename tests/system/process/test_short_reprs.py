@@ -32,8 +32,8 @@ def values_in(value, depth=DEPTH):
     if depth == 0:
         return
     for name in dir(type(value)):
-        is_computed = isinstance(getattr(type(value), name), property)
-        if not name.startswith("_") and is_computed:
+        # In compiled classes some private names have no value; properties are descriptors there.
+        if not name.startswith("_") and hasattr(getattr(type(value), name), "__set__"):
             yield from attributes(value, name, depth)
     names = getattr(value, "_fields", ())
     if dataclasses.is_dataclass(value):
