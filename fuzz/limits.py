@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import os
 import signal
 import sys
 import threading
 import time as clock
 import traceback
 from collections.abc import Iterator
+from pathlib import Path
 from types import FrameType
 from typing import Final, NoReturn
 
 from exactpt.scene.scene import Scene
 
-__all__ = ["TimeIsUp", "TooSlow", "limit", "patience_of", "signed"]
+if sys.platform == "linux":
+    import resource
+else:
+    resource = None
+
+__all__ = ["TimeIsUp", "TooSlow", "limit", "memory_bounded", "patience_of", "signed"]
 
 WAITING: Final = 6.0
 """Elapsed time, in units of the limit of processor time, after which work that waits is stuck."""
@@ -79,6 +86,31 @@ def limit(seconds: float, ends: float | None = None) -> Iterator[None]:
     else:
         with _watched(min(seconds, left), ends):
             yield
+
+
+ROOM: Final = 1 << 30
+"""Bytes of addresses beyond a bound on memory: allocators take more than they use."""
+
+
+@contextlib.contextmanager
+def memory_bounded(most: int) -> Iterator[None]:
+    """Let the process have no more than some bytes of memory, and `ROOM`, beyond what it has.
+
+    Python raises `MemoryError` for what is beyond. GMP ends the process, which is a finding of a
+    campaign with processes.
+    """
+    if resource is None:
+        yield
+        return
+    old, hard = resource.getrlimit(resource.RLIMIT_AS)
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    wanted = pages * os.sysconf("SC_PAGE_SIZE") + most + ROOM
+    soft = wanted if old == resource.RLIM_INFINITY else min(wanted, old)
+    resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (old, hard))
 
 
 def _over(ends: float | None) -> type[BaseException]:

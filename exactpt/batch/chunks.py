@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterable
 from functools import partial
 from hashlib import blake2b
@@ -48,27 +49,46 @@ class Answered(NamedTuple):
     Attributes:
         start, stop, digest: those of the chunk.
         lines: the number of its lines.
-        scenes: the number of those that are not empty.
-        failures: the number of scenes whose result is an error.
-        first: the line and the error of the first of these.
-        text: a line of JSON for each scene.
+        text: a line of JSON for each of these that is not empty.
     """
 
     start: int
     stop: int
     digest: str
     lines: int
+    text: bytes
+
+
+class Tally(NamedTuple):
+    """Counts of results.
+
+    Attributes:
+        scenes: the number of results.
+        failures: the number of those that are an error.
+        first: the line and the error of the first of these; empty if there is none.
+    """
+
     scenes: int
     failures: int
     first: str
-    text: bytes
+
+
+_FAILURE: Final = re.compile(rb'^\{"line": \d+, "error": .*$', re.MULTILINE)
+
+
+def tally(text: bytes) -> Tally:
+    """Return the counts of the results in a text of lines."""
+    failures = _FAILURE.findall(text)
+    first = json.loads(failures[0]) if failures else None
+    shown = "" if first is None else f"line {first['line']}: {first['error']}"
+    return Tally(text.count(b"\n"), len(failures), shown)
 
 
 class Record(NamedTuple):
     """A chunk with its results.
 
     Attributes:
-        start, stop, digest, lines, scenes, failures, first: as in `Answered`.
+        start, stop, digest, lines: as in `Answered`.
         at, size: the place and the number of bytes of its results.
         results: the digest of these.
     """
@@ -77,9 +97,6 @@ class Record(NamedTuple):
     stop: int
     digest: str
     lines: int
-    scenes: int
-    failures: int
-    first: str
     at: int
     size: int
     results: str
@@ -97,16 +114,11 @@ class Record(NamedTuple):
         """
         start = data["start"].integer(0, length)
         stop = data["stop"].integer(start + 1, length)
-        lines = data["lines"].integer(1, stop - start)
-        scenes = data["scenes"].integer(0, lines)
         return cls(
             start,
             stop,
             data["digest"].text(),
-            lines,
-            scenes,
-            data["failures"].integer(0, scenes),
-            data["first"].text(),
+            data["lines"].integer(1, stop - start),
             data["at"].integer(0, LARGEST_FILE),
             data["size"].integer(0, LARGEST_FILE),
             data["results"].text(),
@@ -151,17 +163,6 @@ def _no_answer(row: tuple[int, bytes], _step: Step | None, why: str) -> tuple[in
 
 
 def _joined(chunk: Chunk, found: Iterable[tuple[int, Answer]]) -> Answered:
-    rows = [(number, data) for number, data in found]
-    failures = [f"line {number}: {data['error']}" for number, data in rows if "error" in data]
-    text = "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in rows)
+    text = "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in found)
     lines = chunk.text.removesuffix(b"\n").count(b"\n") + 1
-    return Answered(
-        chunk.start,
-        chunk.stop,
-        chunk.digest,
-        lines,
-        len(rows),
-        len(failures),
-        failures[0] if failures else "",
-        text.encode(),
-    )
+    return Answered(chunk.start, chunk.stop, chunk.digest, lines, text.encode())

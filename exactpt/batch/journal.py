@@ -11,7 +11,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from exactpt.batch.chunks import Answered, Record, digest_of, record_of
+from exactpt.batch.chunks import Answered, Record, Tally, digest_of, record_of, tally
 from exactpt.batch.options import Options
 from exactpt.errors import InputError
 from exactpt.files import create, is_at, lock, open_own
@@ -81,12 +81,13 @@ class Journal:
             raise InputError(f"{self._target}: {reason}") from None
         self.records[record.start] = record
 
-    def pass_on(self, write: Callable[[bytes], None]) -> None:
-        """Pass all results on, in the order of their scenes.
+    def pass_on(self, write: Callable[[bytes], None]) -> Tally:
+        """Pass all results on, in the order of their scenes; return their counts.
 
         Raises:
             InputError: if they are not those that were written.
         """
+        scenes, failures, first = 0, 0, ""
         for start in sorted(self.records):
             record = self.records[start]
             self._part.seek(record.at)
@@ -94,6 +95,10 @@ class Journal:
             if digest_of(results) != record.results:
                 raise self._changed(record)
             write(results)
+            counts = tally(results)
+            scenes, failures = scenes + counts.scenes, failures + counts.failures
+            first = first or counts.first
+        return Tally(scenes, failures, first)
 
     def remove(self) -> None:
         """Remove the files, unless other files have their names by now."""

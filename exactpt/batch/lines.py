@@ -84,6 +84,8 @@ class Lines:
                 text, digest = self._next(file, min(most, room))
                 if not text:
                     return
+                if file.tell() - start > room:  # a finished chunk would begin within a line
+                    raise changed(self._path)
                 chunk = Chunk(line, start, file.tell(), digest, text)
                 yield chunk
                 line += text.removesuffix(b"\n").count(b"\n") + 1

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple, final
 
-from exactpt.batch.chunks import Answered, Record, answered, one_by_one
+from exactpt.batch.chunks import Answered, answered, one_by_one
 from exactpt.batch.journal import Journal
 from exactpt.batch.lines import Lines, Source, size_of
 from exactpt.batch.options import Options
@@ -17,9 +17,10 @@ from exactpt.batch.parquet import Rows, table
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.files import writing
+from exactpt.kernel.numbers import shorten
 from exactpt.workers.cluster import results_on
 from exactpt.workers.processes import results_of
-from exactpt.workers.work import Work
+from exactpt.workers.work import MAX_JOBS, Work
 
 PARQUET = ".parquet"
 ON_A_CLUSTER = 16
@@ -73,6 +74,8 @@ def run(
             query is not that of the batch that was interrupted.
     """
     options = options or Options()
+    if not 1 <= jobs <= MAX_JOBS:
+        raise InputError(f"jobs: expected a number from 1 to {MAX_JOBS}, got {shorten(jobs)}")
     given, target = Path(scenes), Path(answers)
     source = Rows(given) if given.suffix == PARQUET else Lines(given, options.max_bytes)
     if os.path.lexists(target):
@@ -95,17 +98,13 @@ def run(
             done += result.stop - result.start
             if report is not None:
                 report(done, source.length)
-        records = _all(journal, source)
+        _check_complete(journal, source)
         with writing(target, new=True) as write, _as_rows(target, write, source) as add:
-            journal.pass_on(add)
+            counts = journal.pass_on(add)
         journal.remove()
     finally:
         journal.close()
-    return Summary(
-        sum(record.scenes for record in records),
-        sum(record.failures for record in records),
-        next((record.first for record in records if record.first), ""),
-    )
+    return Summary(*counts)
 
 
 def _as_rows(
@@ -116,8 +115,8 @@ def _as_rows(
     return table(write, source if isinstance(source, Rows) else None)
 
 
-def _all(journal: Journal, source: Source) -> list[Record]:
-    """Return the records of all chunks, in the order of the input.
+def _check_complete(journal: Journal, source: Source) -> None:
+    """Check that the chunks that are finished are the whole input.
 
     Raises:
         InputError: if some are missing.
@@ -126,4 +125,3 @@ def _all(journal: Journal, source: Source) -> list[Record]:
     ends = [0, *(record.stop for record in records)]
     if [record.start for record in records] != ends[:-1] or ends[-1] < source.length:
         raise InputError("the workers have ended before all scenes were processed")
-    return records

@@ -26,12 +26,13 @@ from exactpt.cli.terminal import print_error
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
 from exactpt.kernel.numbers import QQ
+from exactpt.workers.work import MAX_JOBS
 
 
 @click.command()
 @click.argument("scenes", type=click.Path(path_type=Path), metavar="SCENES")
 @output("The file of results, which must not exist.", required=True)
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
+@click.option("--jobs", type=click.IntRange(1, MAX_JOBS), default=1, help="Number of processes.")
 @click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
 @click.option("--all", "every", is_flag=True, help="Find all intervals in which bodies meet.")
 @click.option(

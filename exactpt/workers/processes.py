@@ -132,14 +132,15 @@ def results_of(
     again: deque[Item] = deque()
     tries = Counter[Item]()
     try:
-        while len(workers) < jobs:
-            workers.append(_Worker(work))
         while True:
-            for worker in workers:
-                if worker.item is None:
+            for k in range(jobs):
+                if k == len(workers) or workers[k].item is None:
                     item = again.popleft() if again else next(todo, None)
-                    if item is not None:
-                        worker.begin(item)
+                    if item is None:
+                        break
+                    if k == len(workers):  # no more processes than items
+                        workers.append(_Worker(work))
+                    workers[k].begin(item)
             busy = [worker for worker in workers if worker.item is not None]
             if not busy:
                 return

@@ -13,6 +13,9 @@ ENDS = "ends its process"
 HANGS = "hangs"
 UNFINISHED = "is not finished"
 
+MAX_JOBS = 1024
+"""Maximum number of processes: more are a mistake, and would fill the memory."""
+
 MAX_TRIES = 2
 """How often an item may end its worker before it is given up."""
 

@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
-from exactpt import Simulation, write_shapes
+from exactpt import BudgetExceeded, InputError, Simulation, certify, write_shapes
+from exactpt.batch import run
+from exactpt.batch.chunks import digest_of
+from exactpt.batch.journal import SEAL
 from exactpt.proof.written import write_proof
 from exactpt.scene.generate import families
 from exactpt.simulation.store import sealed
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
 from fuzz.subscene import scene_of
 
-__all__ = ["FORMATS", "SCENES", "Hostile", "hostile", "scene_text"]
+__all__ = ["FORMATS", "SCENES", "Hostile", "batch_files", "hostile", "scene_text"]
 
 SCENES: Final = ("scene", "special")
 """Formats of scene files: "special" ones have holes, parts, radii or spin."""
 
-FORMATS: Final = (*SCENES, "geojson", "mfjson", "wkt", "svg", "saved", "proof")
+FORMATS: Final = (
+    *SCENES, "geojson", "mfjson", "wkt", "svg", "saved", "proof", "apart", "journal", "part",
+)  # fmt: skip
 SEEDS: Final = 40
 """Number of valid files of each format."""
 
@@ -47,7 +53,7 @@ class Hostile(NamedTuple):
     Attributes:
         content: its bytes.
         seed: number of the valid file that it was made from.
-        wound: "value", if one value of that was changed; else "text".
+        wound: "value", if one value of that was changed, and all digests are right; else "text".
     """
 
     content: bytes
@@ -62,14 +68,29 @@ def hostile(kind: str, number: int, seed: int) -> Hostile:
     text = _valid(kind, which)
     if rng.random() < 0.5:
         return Hostile(damaged(text, rng), which, "text")
-    if kind in ("wkt", "svg", "proof"):
+    if kind in ("wkt", "svg", "proof", "apart", "part"):
         content = with_another_word(text, rng)
+    elif kind == "journal":
+        content = _journal_with_another_value(text, rng)
     elif kind == "saved":
         data = with_another_value(_unsealed(text), rng)
         content = json.dumps(sealed(data) if isinstance(data, dict) else data)
     else:
         content = json.dumps(with_another_value(json.loads(text), rng))
     return Hostile(content.encode("utf-8", "surrogatepass"), which, "value")
+
+
+def _journal_with_another_value(text: str, rng: Random) -> str:
+    """A journal with one changed value in one of its lines, which has its digest again."""
+    lines = text.splitlines()
+    number = rng.randrange(len(lines))
+    data = json.loads(lines[number])
+    data.pop(SEAL, None)
+    data = with_another_value(data, rng)
+    if number and isinstance(data, dict):
+        data[SEAL] = digest_of(json.dumps(data).encode() + b"\n")
+    lines[number] = json.dumps(data)
+    return "\n".join(lines) + "\n"
 
 
 def _unsealed(text: str) -> object:
@@ -83,11 +104,60 @@ def scene_text(which: int) -> str:
     return _valid("scene", which)
 
 
+def _certificate(which: int) -> bytes:
+    """The certificate of the scene of this number, or of the next one that has one."""
+    plain = [*families("convex", "simple", "points")]
+    try:
+        return certify(scene_of(plain[which % len(plain)], 1 + which)).text
+    except (BudgetExceeded, InputError):
+        return _certificate(which + 1)
+
+
+class _InterruptedError(Exception):
+    """A batch is interrupted."""
+
+
+@cache
+def batch_files(which: int) -> dict[str, str]:
+    """The files of a batch that was interrupted after two of its chunks, and the whole results.
+
+    By their names: the scenes, the results and the journal so far, and "answers.jsonl".
+    """
+    lines = [_one_line(number) for number in (which, which + 1, which + 2)] * 12
+
+    done = 0
+
+    def report(*_: int) -> None:
+        nonlocal done
+        done += 1
+        if done == 2:
+            raise _InterruptedError
+
+    with TemporaryDirectory() as folder:
+        scenes, results = Path(folder) / "scenes.jsonl", Path(folder) / "answers.jsonl"
+        scenes.write_text("".join(lines), encoding="utf-8")
+        with suppress(_InterruptedError):
+            run(scenes, results, report=report)
+        files = {path.name: path.read_text(encoding="utf-8") for path in Path(folder).iterdir()}
+        run(scenes, results)
+        return files | {results.name: results.read_text(encoding="utf-8")}
+
+
+def _one_line(which: int) -> str:
+    """A line of a batch: a small scene of two points."""
+    point = {"name": "a", "vertices": [[0, which]], "motion": {"x": [0, 1]}}
+    bodies = [point, {"name": "b", "vertices": [[9, 0], [9, 1 + 2 * which]]}]
+    note = {"exactpt": 1, "time": [0, 10], "bodies": bodies}
+    return json.dumps(note) + " " * 400 + "\n"
+
+
 @cache
 def _valid(kind: str, which: int) -> str:
     """A valid file of a format, made from a scene of a family."""
     if which % 2 and kind in ("svg", "mfjson"):
         return DRAWING if kind == "svg" else TRIP
+    if kind in ("journal", "part"):
+        return batch_files(which)[f"answers.jsonl.{kind}"]
     special = [*families("rings", "rounded", "spinning", "touching")]
     straight = ["chains_on_grid", "bodies_on_grid", "linear_points", "piecewise_points"]
     plain = [*families("convex", "simple", "points")]
@@ -103,6 +173,8 @@ def _valid(kind: str, which: int) -> str:
             simulation.save(path)
         elif kind == "proof":
             write_proof(scene, path, scene_file=scene_text(which).encode())
+        elif kind == "apart":
+            path.write_bytes(_certificate(which))
         else:
             write_shapes(scene, path)
         return path.read_text(encoding="utf-8")

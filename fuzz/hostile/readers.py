@@ -8,13 +8,22 @@ import os
 import time as clock
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt import BudgetExceeded, ExactPTError, Simulation, proof_check, read_shapes
+from exactpt import (
+    BudgetExceeded,
+    ExactPTError,
+    Simulation,
+    check_apart,
+    proof_check,
+    read_shapes,
+)
 from exactpt.cli import main
-from fuzz.hostile.files import SCENES, Hostile, scene_text
+from exactpt.errors import AuditError
+from fuzz.hostile.files import SCENES, Hostile, batch_files, scene_text
 from fuzz.limits import TooSlow, limit
 
 __all__ = ["Ended", "read"]
@@ -111,7 +120,11 @@ def _reader_of(kind: str, rng: Random) -> _Reader:
     if kind == "saved":
         return _Reader("restore", _restored)
     if kind == "proof":
-        return _Reader("proof_check", _checked)
+        return _Reader("proof_check", partial(_checked, proof_check.main))
+    if kind == "apart":
+        return _Reader("check_apart", partial(_checked, check_apart.main))
+    if kind in ("journal", "part"):
+        return _Reader(f"batch {kind}", partial(_went_on, kind))
     if kind not in SCENES and rng.random() < 0.2:
         return _Reader("read_shapes", _shapes)
     line = rng.choice(COMMANDS if kind in SCENES else CONVERSIONS)
@@ -182,16 +195,37 @@ def _restored(file: Hostile, path: Path) -> tuple[str, str]:
             pass
     except BudgetExceeded:
         return "spent", ""
-    except Exception as error:
+    except AuditError as error:
         return "broken", "" if file.wound == "value" else f"{type(error).__name__}: {error}"
     return "read", ""
 
 
-def _checked(file: Hostile, path: Path) -> tuple[str, str]:
+def _went_on(kind: str, file: Hostile, path: Path) -> tuple[str, str]:
+    """Have a batch go on with a damaged file; a refusal changes no file."""
+    files = batch_files(file.seed)
+    result = Path("answers.jsonl")
+    path.rename(f"{result}.{kind}")
+    for name, content in files.items():
+        if not Path(name).exists() and name != result.name:
+            Path(name).write_text(content, encoding="utf-8")
+    before = _contents()
+    code, out, err = _captured(lambda: main(["batch", "scenes.jsonl", "-o", str(result), "-q"]))
+    if code == 0:
+        same = result.read_text(encoding="utf-8") == files[result.name]
+        return "read", "" if same else "the results are other ones"
+    changed = [] if _contents() == before else ["a file was changed"]
+    return "refused" if code == 2 else "FAULT", _fault(code, out, err, changed)
+
+
+def _contents() -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in Path().iterdir()}
+
+
+def _checked(checker: Callable[[list[str]], int], file: Hostile, path: Path) -> tuple[str, str]:
     scene = Path("scene.json")
     scene.write_text(scene_text(file.seed), encoding="utf-8")
-    code, out, err = _captured(lambda: proof_check.main([str(scene), str(path)]))
-    if code not in (0, 1, 2) or (out + err).count("\n") != 1:
+    code, out, err = _captured(lambda: checker([str(scene), str(path)]))
+    if code not in (0, 1, 2, 4) or (out + err).count("\n") != 1:
         return "FAULT", f"exit code {code}: {(out + err)[-300:]!r}"
     if not (out + err).replace("\n", "").isprintable():
         return "FAULT", f"not printable: {out + err!r}"

@@ -15,6 +15,7 @@ from exactpt.kernel import budget
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.hostile import readers
 from fuzz.hostile.files import FORMATS, hostile
+from fuzz.limits import memory_bounded
 from fuzz.options import HELP, Options, conduct, options
 
 __all__ = ["OUTCOMES", "Files", "hostile_files"]
@@ -54,7 +55,7 @@ class Files(Check):
         finding = Finding(kind, "hangs", str(path), {path: file.content})
         tell(Step(readers.PATIENCE, finding))
         before = budget.resident_memory()
-        with TemporaryDirectory() as folder:
+        with TemporaryDirectory() as folder, memory_bounded(MAX_MEMORY):
             ended = readers.read(kind, file, Random(f"reader {self.seed} {number}"), Path(folder))
         grown = budget.resident_memory() - before
         if not ended.fault and grown > MAX_MEMORY:

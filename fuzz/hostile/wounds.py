@@ -13,6 +13,15 @@ __all__ = ["Json", "damaged", "with_another_value", "with_another_word"]
 
 Json: TypeAlias = Any
 
+
+def nested(depth: int) -> Json:
+    """Lists around each other."""
+    value: Json = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
 VALUES: Final[list[Json]] = [
     None, True, False, 0, -1, 7, 1.5, 10**30, -(10**400), 1e308, 5e-324, [], {}, "", "x", "1/0",
     "1/-2", "--1", "1e5", "1e400", "1e-399", "1e99999", "1e999999999", "NaN", "Infinity", "0x10",
@@ -20,6 +29,7 @@ VALUES: Final[list[Json]] = [
     ["0", "1", "2"], ["0"] * 300, {"x": ["0", "1"]}, {"x": ["0"], "z": ["1"]}, {"rigid": {}},
     {"rigid": {"half_turn": ["0", "1e30"]}}, {"pieces": []}, {"affine": {"matrix": []}},
     "9" * 500, "9" * 10_001, [["0", "0"]] * 3, [["0", "0"], ["1", "1"], ["2", "2"]],
+    2**31, -(2**31) - 1, 2**63, -(2**63) - 1, 10**18, float("nan"), float("inf"), nested(300),
 ]  # fmt: skip
 """Values put in the place of another one."""
 
