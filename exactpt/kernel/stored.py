@@ -102,15 +102,23 @@ class Stored:
     def __contains__(self, key: str) -> bool:
         return isinstance(self._data, dict) and key in self._data
 
+    def members_by_key(self) -> dict[str, Any]:
+        """Return this object, whose values its reader validates.
+
+        Raises:
+            InputError: if it is none.
+        """
+        if not isinstance(self._data, dict):
+            raise self.refused("an object")
+        return self._data
+
     def members(self) -> Iterator[tuple[str, Stored]]:
         """Yield the keys and values of this object.
 
         Raises:
             InputError: if it is not an object.
         """
-        if not isinstance(self._data, dict):
-            raise self.refused("an object")
-        for key, value in self._data.items():
+        for key, value in self.members_by_key().items():
             yield key, Stored(value, self, key)
 
     def entries(self, length: int | None = None) -> list[Stored]:

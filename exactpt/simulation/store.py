@@ -86,3 +86,6 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[Stored]:
         raise InputError(f"{path}: not a saved simulation: {error}") from None
     except AuditError as error:  # values that are valid one by one
         raise InputError(f"{path}: not a saved simulation: {shorten(str(error))[1:-1]}") from None
+    except Exception as error:  # of the rules of a tiling from outside the package
+        reason = f"{type(error).__name__}: {shorten(str(error))[1:-1]}"
+        raise InputError(f"{path}: not a saved simulation: {reason}") from None

@@ -105,7 +105,7 @@ class Engine(Tiling):
             if not mesh.map.is_used(h):
                 raise item.refused("a half-edge in use")
             self.table.flat.add(h)
-        self.rules.resume(state)
+        self.rules.resume(state.members_by_key())
 
     def _audit_rings(self, mesh: Mesh) -> None:
         """Check that the edges of bodies in a mesh that was read are those of the vertices.

@@ -8,10 +8,11 @@ repairs, and the flips that make the tiling canonical again after a change.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from mypy_extensions import mypyc_attr
 
+from exactpt.certificates.certificate import OTHER
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.planar.halfedge import twin
@@ -24,12 +25,14 @@ from exactpt.tiling.angles import CertifiedMesh, Followers
 if TYPE_CHECKING:
     from exactpt.certificates.at_time import PredicatesAt
     from exactpt.kernel.numbers import QQ
-    from exactpt.kernel.stored import Stored
     from exactpt.motion.body import Body
     from exactpt.motion.vertices import Vertices
     from exactpt.pseudotriangulation.conflict_zone import ConflictZone
     from exactpt.tiling.events import Log
     from exactpt.tiling.tiling import State
+
+MOST_PARTS: Final = 64
+"""Maximum number of certificates of one kind in a structure from outside, for each vertex."""
 
 
 @mypyc_attr(allow_interpreted_subclasses=True)
@@ -95,15 +98,20 @@ class Rules(Followers, ABC):
         """Return a mesh of this tiling without edges."""
         return Mesh(0)
 
-    def resume(self, state: Stored) -> None:
-        """Restore the data besides the mesh, from a saved state and from the mesh."""
+    def resume(self, state: State) -> None:
+        """Restore the data besides the mesh, from a saved state and from the mesh.
 
-    def has_part(self, kind: int, part: int) -> bool:  # noqa: ARG002 - there are no others
+        The state may be forged: `exactpt.kernel.stored.Stored` checks its values.
+        """
+
+    def has_part(self, kind: int, part: int) -> bool:
         """Return True if a part may have a certificate of a kind, besides those of the engine.
 
-        Rules with certificates of their own define it, so that runs can be restored.
+        By default those of structures from outside may, with parts up to a multiple of the number
+        of vertices: the queue has room for all parts up to the largest.
         """
-        return False
+        most = MOST_PARTS * (len(self.certified.vertices.all) + 1)
+        return OTHER <= kind <= OTHER + 1 and part < most
 
     # Certificates
 

@@ -189,7 +189,9 @@ def _restored(file: Hostile, path: Path) -> tuple[str, str]:
     except BudgetExceeded:
         return "spent", ""
     except ExactPTError as error:
-        return "refused", "" if str(error).isprintable() else f"not printable: {str(error)!r}"
+        if not str(error).isprintable():
+            return "refused", f"not printable: {str(error)!r}"
+        return "refused", str(error) if "Error: " in str(error) else ""
     try:
         for _ in simulation.run():
             pass

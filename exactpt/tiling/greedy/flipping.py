@@ -19,7 +19,6 @@ from exactpt.certificates.certificate import SHADOW, part_of
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.stored import Stored
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import flip, flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -29,6 +28,7 @@ from exactpt.tiling.events import Log
 from exactpt.tiling.greedy.shadows import COUNT, CertifiedShadows
 from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
+from exactpt.tiling.tiling import State
 
 
 @mypyc_attr(allow_interpreted_subclasses=True)
@@ -69,7 +69,7 @@ class FlippingRules(Rules):
                     if visits is not None:
                         flip(mesh, h, visits, after)
 
-    def resume(self, state: Stored) -> None:  # noqa: ARG002 - shadows follow from the mesh
+    def resume(self, state: State) -> None:  # noqa: ARG002 - shadows follow from the mesh
         """See `Rules.resume`."""
         mesh, after = self.certified.mesh, self.certified.after()
         for h in mesh.flippable():

@@ -95,10 +95,12 @@ class VerticalRules(Rules):
         """See `Rules.state`."""
         return {"cells": self.cells.now.state()}
 
-    def resume(self, state: Stored) -> None:
+    def resume(self, state: State) -> None:
         """See `Rules.resume`."""
         vertices = self.certified.vertices
-        self.cells.now.resume(state["cells"], len(vertices.bodies), len(vertices.all))
+        self.cells.now.resume(
+            Stored(state, "state")["cells"], len(vertices.bodies), len(vertices.all)
+        )
 
     def has_part(self, kind: int, part: int) -> bool:
         """See `Rules.has_part`."""
