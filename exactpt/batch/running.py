@@ -79,6 +79,8 @@ def run(
     given, target = Path(scenes), Path(answers)
     source = Rows(given) if given.suffix == PARQUET else Lines(given, options.max_bytes)
     if os.path.lexists(target):
+        if target.is_symlink() or not target.is_file():
+            raise InputError(f"{target}: a folder, link, pipe or device: choose another name")
         raise InputError(f"{target}: it exists: remove it, or choose another name")
     most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
     journal = Journal(target, options, source.length)

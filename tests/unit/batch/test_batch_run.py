@@ -353,12 +353,15 @@ def test_files_that_replace_those_of_a_batch_are_not_removed(scenes, tmp_path):
     assert out.read_text() == EXPECTED
 
 
-def test_dangling_link_as_output_is_refused(scenes, tmp_path):
-    out = tmp_path / "answers.jsonl"
-    out.symlink_to(tmp_path / "elsewhere")
+@pytest.mark.skipif(sys.platform == "win32", reason="links and pipes of a Unix")
+@pytest.mark.parametrize("kind", ["link", "dangling link", "folder", "pipe"])
+def test_output_that_is_no_file_is_refused(scenes, tmp_path, kind):
+    out, target = foreign(kind, tmp_path)
+    before, files = os.lstat(out), left(tmp_path)
 
-    assert "it exists" in refusal(scenes, out)
-    assert not (tmp_path / "elsewhere").exists()
+    assert refusal(scenes, out).endswith("a folder, link, pipe or device: choose another name")
+    assert (os.lstat(out), left(tmp_path)) == (before, files)
+    assert target.read_text() == "precious\n"
 
 
 def test_an_output_that_exists_is_left_alone(scenes, tmp_path):
