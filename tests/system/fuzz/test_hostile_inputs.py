@@ -11,12 +11,15 @@ from random import Random
 import pytest
 from folding import every
 
+from exactpt.batch.chunks import digest_of
+from exactpt.batch.journal import SEAL
 from exactpt.scene.format import loads
 from exactpt.simulation.store import _checksum
 from fuzz.campaign import Progress, campaign
 from fuzz.hostile import readers
-from fuzz.hostile.files import FORMATS, hostile, scene_text
+from fuzz.hostile.files import FORMATS, batch_files, hostile, scene_text
 from fuzz.hostile.run import OUTCOMES, Files
+from fuzz.limits import memory_bounded
 
 ROOT = Path(__file__).parents[3]
 
@@ -63,6 +66,28 @@ def test_saved_runs_with_a_changed_value_have_a_right_checksum():
         del data["exactpt-simulation"]
         assert data.pop("sha256") == _checksum(data)
     assert values
+
+
+def test_journals_with_a_changed_value_have_right_digests():
+    files = [hostile("journal", i, 0) for i in range(60)]
+    changed = 0
+    for file in (file for file in files if file.wound == "value"):
+        valid = batch_files(file.seed)["answers.jsonl.journal"].splitlines()
+        for line, before in zip(file.content.decode().splitlines(), valid, strict=True):
+            data = json.loads(line)
+            if line == before or not isinstance(data, dict) or SEAL not in data:
+                continue
+            seal = data.pop(SEAL)
+            assert seal == digest_of(json.dumps(data).encode() + b"\n")
+            changed += 1
+    assert changed > 5
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="addresses are bounded on Linux")
+def test_memory_beyond_the_bound_is_refused():
+    with memory_bounded(1 << 20), pytest.raises(MemoryError):
+        bytearray(3 << 30)
+    assert len(bytearray(1 << 20)) == 1 << 20
 
 
 def faulty(*_):

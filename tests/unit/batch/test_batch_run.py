@@ -615,6 +615,31 @@ def test_an_input_that_is_no_file_is_refused(tmp_path, what):
     assert left(tmp_path) == []
 
 
+@pytest.mark.parametrize("jobs", [0, -1, 1025, 10**9])
+def test_jobs_out_of_range_are_refused(scenes, tmp_path, jobs):
+    """A million processes were started, before any scene was read."""
+    with pytest.raises(InputError, match="jobs: expected a number from 1 to 1024"):
+        run(scenes, tmp_path / "answers.jsonl", jobs=jobs)
+    assert code_of("batch", scenes, "-o", tmp_path / "x", "--jobs", jobs) == 2
+
+
+@pytest.mark.long
+def test_no_more_processes_than_chunks_are_started(tmp_path, monkeypatch):
+    started = []
+    make = processes._Worker.__init__
+
+    def counted(self, work):
+        started.append(self)
+        make(self, work)
+
+    monkeypatch.setattr(processes._Worker, "__init__", counted)
+    (tmp_path / "one.jsonl").write_text(SCENES[0] + "\n")
+
+    run(tmp_path / "one.jsonl", tmp_path / "answers.jsonl", jobs=50)
+
+    assert len(started) == 1
+
+
 def test_an_output_in_no_folder_is_refused(scenes, tmp_path):
     assert "cannot be written" in refusal(scenes, tmp_path / "no" / "answers.jsonl")
 
