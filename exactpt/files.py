@@ -89,12 +89,15 @@ def create(path: Path, content: bytes) -> BinaryIO:
         InputError: if the name is taken, or the file cannot be written.
     """
     with _refusing(path):
-        file = _open_beside(path, None)
+        # Windows does not rename an open file: there, an interrupted creation leaves a part of it.
+        in_place = sys.platform == "win32"
+        file: BinaryIO = open(path, "x+b") if in_place else _open_beside(path, None)  # noqa: SIM115
         try:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-            _move(file.name, path)
+            if not in_place:
+                _move(file.name, path)
         except BaseException:
             file.close()
             with contextlib.suppress(OSError):
