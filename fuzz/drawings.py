@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from exactpt import InputError
 from exactpt.exchange.shapes import Shape
 from exactpt.exchange.svg import shapes_of
+from exactpt.geometry.polygon import signed_area2
 from exactpt.render.png import png_of
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.options import HELP, Options, conduct, options
@@ -36,6 +37,9 @@ _BORDER: Final = 6.0
 _PART: Final = 0.03
 """Relative difference of areas that is allowed, beside that of `_FEW` pixels."""
 _FEW: Final = 60.0
+
+_LEAST: Final = 0.05
+"""The least part of a pixel that counts for the box."""
 
 _ASPECTS: Final = (
     "", 'preserveAspectRatio="none"', 'preserveAspectRatio="xMinYMin meet"',
@@ -71,7 +75,7 @@ def _some(rng: Random, low: float, high: float) -> float:
 def _outline(rng: Random) -> str:
     x, y = _some(rng, 0, 50), _some(rng, 0, 50)
     wide, high = _some(rng, 20, 60), _some(rng, 20, 60)
-    match rng.randrange(6):
+    match rng.randrange(8):
         case 0:
             return (
                 f'<rect x="{x}" y="{y}" width="{wide}" height="{high}" rx="{rng.choice([0, 9])}"/>'
@@ -84,9 +88,24 @@ def _outline(rng: Random) -> str:
             return f'<polygon points="{x},{y} {x + wide} {y} {x},{y + high}"/>'
         case 4:
             return f'<path d="M{x} {y}h{wide}q{_some(rng, 0, 20)} 9 12 {high}L{x} {y + high}z"/>'
+        case 5 | 6:
+            return _crossing(rng)
         case _:
             flags = f"{rng.choice([0, 20, 70])} {rng.randint(0, 1)} {rng.randint(0, 1)}"
             return f'<path d="M{x} {y}a{wide / 2} {high / 2} {flags} {wide / 3} {high / 3}z"/>'
+
+
+def _crossing(rng: Random) -> str:
+    """A path of loops that cross, with a fill rule of its own, of a group, or none."""
+    loops = (
+        " ".join(f"{_some(rng, 0, 90)},{_some(rng, 0, 90)}" for _ in range(rng.randint(3, 6)))
+        for _ in range(rng.randint(1, 3))
+    )
+    data = " ".join(f"M{loop}z" for loop in loops)
+    rule, outer = (rng.choice(["", "nonzero", "evenodd"]) for _ in range(2))
+    own = rng.choice([f'fill-rule="{rule}"', f'style="fill-rule: {rule}"']) if rule else ""
+    path = f'<path {own} d="{data}"/>'
+    return f'<g fill-rule="{outer}">{path}</g>' if outer else path
 
 
 def _wrapped(rng: Random, text: str) -> str:
@@ -129,34 +148,30 @@ def compared(text: str) -> Compared:
     if corners.min() < 1 or corners.max() > SIDE - 1:
         return Compared("outside")
     filled = _filled(text)
-    rows, columns = np.nonzero(filled)
+    rows, columns = np.nonzero(filled > _LEAST)
     if not len(rows):
         return Compared("FAULT", "the picture is empty")
     picture = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
     box = (*corners.min(axis=0), *corners.max(axis=0))
     if max(abs(a - b) for a, b in zip(picture, box, strict=True)) > _BORDER:
         return Compared("FAULT", f"the box {box} is {picture} in the picture")
-    area, count = sum(map(_area, shapes)), int(filled.sum())
+    area, count = sum(map(_area, shapes)), float(filled.sum())
     if abs(area - count) > _PART * area + _FEW:
         return Compared("FAULT", f"the area {area} is {count} in the picture")
     return Compared("same")
 
 
-def _filled(text: str) -> NDArray[np.bool_]:
-    """The pixels that are filled, more than by half, in rows."""
+def _filled(text: str) -> NDArray[np.float64]:
+    """The part of each pixel that is filled, in rows."""
     from PIL import Image
 
     image = Image.open(io.BytesIO(png_of(text, zoom=1))).convert("RGBA")
-    alpha = np.asarray(image)[:, :, 3]
-    return np.asarray(alpha > 127)
+    return np.asarray(image)[:, :, 3] / 255.0
 
 
 def _area(shape: Shape) -> float:
-    points = [(float(x), float(y)) for x, y in shape.points]
-    twice = sum(
-        a * d - b * c for (a, b), (c, d) in zip(points, [*points[1:], points[0]], strict=True)
-    )
-    return abs(twice) / 2
+    outline, *holes = (abs(float(signed_area2(ring))) / 2 for ring in shape.rings)
+    return outline - sum(holes)
 
 
 @dataclass(frozen=True)

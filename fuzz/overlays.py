@@ -7,7 +7,6 @@ the abscissas of all vertices and crossings, in which edges do not cross, and co
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from itertools import combinations, pairwise
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
@@ -100,17 +99,11 @@ def _worse(random: Random, ring: Ring) -> Ring:
     return found
 
 
-def _is_filled_by_sum(is_filled: Callable[[int], bool], numbers: Sequence[int]) -> bool:
-    """Return True if a rule fills a point with these winding numbers, one of each ring."""
-    return is_filled(sum(numbers))
-
-
 def fault_of_drawing(drawing: Drawing) -> str | None:
     """Return the difference of the filled parts of a drawing from the definition; None if none."""
     rings = drawing.rings
     for name, (fill, is_filled) in RULES.items():
-        is_inside = partial(_is_filled_by_sum, is_filled)
-        fault = fault_of_parts(fill(rings), rings, is_inside)
+        fault = fault_of_parts(fill(rings), rings, _of_sum(is_filled))
         if fault is not None:
             return f"{name}: {fault}"
     groups = [rings[k : k + 2] for k in range(0, len(rings), 2)]
@@ -119,6 +112,10 @@ def fault_of_drawing(drawing: Drawing) -> str | None:
         union(separate), [ring for part in separate for ring in part.rings], _is_in_any(separate)
     )
     return None if fault is None else f"union: {fault}"
+
+
+def _of_sum(is_filled: Callable[[int], bool]) -> Callable[[Sequence[int]], bool]:
+    return lambda numbers: is_filled(sum(numbers))
 
 
 def _is_in_any(parts: Sequence[Part]) -> Callable[[Sequence[int]], bool]:

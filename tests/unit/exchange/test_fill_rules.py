@@ -1,5 +1,7 @@
 """Fill rules of drawings: which closed subpaths are solid, and which are holes."""
 
+from fractions import Fraction
+
 import pytest
 
 from exactpt import InputError, Scene, Simulation, read_shapes, write_shapes
@@ -48,6 +50,20 @@ def area(tmp_path, inside):
 def test_area_of_a_path_is_that_of_its_fill_rule(tmp_path, inside, expected):
     """The last one has loops that turn in opposite directions, mirrored: a hole by both rules."""
     assert area(tmp_path, inside) == expected
+
+
+def test_crossings_of_a_drawing_with_physical_units_are_exact(tmp_path):
+    """A unit is 1/3 mm: the strokes of the cross begin at 4/3 mm and end at 2 mm."""
+    file = tmp_path / "drawing.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 30 30">'
+        f'<path d="{CROSS}"/></svg>'
+    )
+
+    (body,) = read_shapes(file).bodies
+
+    assert (body.size, body.at(0)[0]) == (12, (Fraction(4, 3), 0))
+    assert {x for x, _ in body.at(0)} == {0, Fraction(4, 3), 2, Fraction(10, 3)}
 
 
 def test_parts_of_one_path_are_bodies_each(tmp_path):
