@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from exactpt.errors import InputError
 from exactpt.exchange.shapes import Shape, together
-from exactpt.geometry.overlay import Part, as_given, evenodd, union
+from exactpt.geometry.overlay import as_given, evenodd, union
 from exactpt.kernel.numbers import shorten
 
 
@@ -31,13 +29,11 @@ def mended(shape: Shape) -> Shape:
             f"{shape.where}: nothing of {shorten(shape.name)} has an area: remove it, or leave "
             "such shapes out (--skip-invalid)"
         )
-    return of_parts(shape, as_given(parts, [ring for part in shape.parts for ring in part.rings]))
-
-
-def of_parts(shape: Shape, parts: Sequence[Part]) -> Shape:
-    """Return a shape with other parts, at least one."""
-    first = shape._replace(kind="polygon", more=())
-    return together([first._replace(points=part.outline, holes=part.holes) for part in parts])[0]
+    given = [ring for part in shape.parts for ring in part.rings]
+    alone = shape._replace(kind="polygon", more=())
+    return together(
+        [alone._replace(points=part.outline, holes=part.holes) for part in as_given(parts, given)]
+    )[0]
 
 
 def repair_report(shape: Shape, repaired: Shape, fault: str) -> str:

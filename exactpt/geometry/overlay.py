@@ -480,7 +480,7 @@ class _Boundary:
         return right if self._goes_right[piece] else left
 
     def _vertices(self, ring: list[int]) -> list[int]:
-        """Return the vertices of a ring, from the one that comes first in the rings given.
+        """Return the vertices of a ring, first the one that comes first in the rings given.
 
         Points in which others only touch or cross it are left out.
         """
@@ -491,7 +491,7 @@ class _Boundary:
         return kept[first:] + kept[:first]
 
     def _is_vertex(self, before: int, vertex: int, after: int) -> bool:
-        """Return True if the boundary bends at a point, or a given edge ends there."""
+        """Return True if the boundary bends there, or an edge along it begins or ends there."""
         orientation = self._arrangement.orientation
         return bool(orientation(before, vertex, after)) or any(
             orientation(before, vertex, end) == 0 for end in self._arrangement.neighbours[vertex]

@@ -6,6 +6,7 @@ import pytest
 
 from exactpt.exchange import flattening, svg
 from exactpt.exchange.lengths import Matrix
+from exactpt.geometry.overlay import evenodd
 from fuzz.campaign import Progress, campaign
 from fuzz.drawings import Drawings, compared, drawing
 
@@ -28,6 +29,7 @@ PLANTED = {
         flattening, "alignment_of", lambda *_: flattening.Alignment(0.0, 0.0),
     ),
     "the place of a copy": (flattening, "moved", lambda *_: Matrix()),
+    "the fill rule": (svg, "_FILL_RULES", {"nonzero": evenodd, "evenodd": evenodd}),
 }  # fmt: skip
 
 
@@ -36,6 +38,6 @@ def test_a_wrong_place_is_found(monkeypatch, planted):
     owner, name, wrong = PLANTED[planted]
     monkeypatch.setattr(owner, name, wrong)
 
-    outcomes = [compared(drawing(Random(f"drawing 0 {i}"))).outcome for i in range(150)]
+    outcomes = [compared(drawing(Random(f"drawing 0 {i}"))).outcome for i in range(240)]
 
     assert "FAULT" in outcomes
