@@ -66,6 +66,11 @@ def nonzero(rings: Sequence[Sequence[Point]]) -> list[Part]:
     are in the order of these vertices. Where the boundary is straight, a point is a vertex if a
     given edge along it begins or ends there.
 
+    >>> square = [(QQ(x), QQ(y)) for x, y in [(0, 0), (9, 0), (9, 9), (0, 9)]]
+    >>> triangle = [(QQ(x), QQ(y)) for x, y in [(3, 3), (6, 3), (3, 6)]]
+    >>> [len(part.holes) for rule in (nonzero, evenodd) for part in rule([square, triangle])]
+    [0, 1]
+
     Args:
         rings: the vertices of closed rings; a first one may be repeated at the end.
     """
