@@ -98,7 +98,7 @@ class _Bodies:
         return body
 
     def add_or_mend(self, shape: Shape) -> None:
-        """Add the body of a shape; if it is not valid, what the repair makes of it."""
+        """Add the body of a shape; if it is not valid, the body of the repaired shape."""
         try:
             self._add(shape)
         except InvalidShapeError as error:

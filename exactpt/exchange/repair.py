@@ -11,9 +11,9 @@ from exactpt.kernel.numbers import shorten
 def mended(shape: Shape) -> Shape:
     """Return the polygons that a shape of any rings fills, as the parts of one shape.
 
-    Each part of the shape fills what is inside an odd number of its rings; what several parts fill
-    counts once. Vertices are those given and exact crossings. Where the boundary meets itself in a
-    point, the parts of the result meet there, so each is valid.
+    Each part of the shape fills the points that an odd number of turns of its rings surrounds; the
+    result is the union of these areas. Its vertices are given ones and exact crossings. Where the
+    boundary meets itself in a point, rings of the result meet there, so the result is valid.
 
     A line that ends where it began is such a polygon.
 
@@ -22,8 +22,11 @@ def mended(shape: Shape) -> Shape:
     """
     if shape.kind != "polygon" and (len(shape.points) < 4 or shape.points[0] != shape.points[-1]):
         raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
-    filled = [evenodd(part.rings) for part in shape.parts]
-    parts = filled[0] if len(filled) == 1 else union(part for some in filled for part in some)
+    try:
+        filled = [evenodd(part.rings) for part in shape.parts]
+        parts = filled[0] if len(filled) == 1 else union(part for some in filled for part in some)
+    except InputError as error:
+        raise InputError(f"{shape.where}: {shorten(shape.name)}: {error}") from None
     if not parts:
         raise InputError(
             f"{shape.where}: nothing of {shorten(shape.name)} has an area: remove it, or leave "

@@ -12,10 +12,10 @@ no ring crosses or touches itself, and two rings meet in single points only. So 
 a single point stay apart, and so do a hole and the ring that it touches.
 
 Vertices are ordered by x, then by y, as if the plane were turned a little: so a vertical piece
-begins at its lower end, and what is to the left of it counts as above it.
+begins at its lower end, and the face to the left of it counts as the one above it.
 
 Doubles decide first, within proved bounds (`exactpt.geometry.simple`, `exactpt.geometry.ragged`);
-what they leave open is decided in rationals. New points are exact crossings of two edges.
+rational numbers decide the rest. New points are exact crossings of two edges.
 
 Source: M. de Berg, O. Cheong, M. van Kreveld, M. Overmars, *Computational Geometry*, 3rd ed.,
 chapter 2 (sweep, overlay of subdivisions).
@@ -28,6 +28,7 @@ from functools import cmp_to_key
 from itertools import chain, combinations, pairwise
 from typing import Final, NamedTuple, TypeAlias, final
 
+from exactpt.errors import InputError
 from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.geometry.simple import are_apart, cross_sign
@@ -37,6 +38,9 @@ from exactpt.kernel.rounding import LARGEST, TINY, U
 
 FEW: Final = 20
 """Maximum number of edges of which all pairs are compared here, without numpy."""
+
+MAX_CUTS: Final = 400_000
+"""Maximum number of points, counted for each edge, in which edges are cut; about 300 MB."""
 
 Rule: TypeAlias = Callable[[int], bool]
 """Whether a face with this winding number is filled."""
@@ -73,6 +77,9 @@ def nonzero(rings: Sequence[Sequence[Point]]) -> list[Part]:
 
     Args:
         rings: the vertices of closed rings; a first one may be repeated at the end.
+
+    Raises:
+        InputError: if the edges cross or touch in too many points (`MAX_CUTS`).
     """
     return _filled(rings, lambda winding: winding != 0)
 
@@ -193,12 +200,16 @@ class _Arrangement:
     def _cuts(self, edges: Sequence[tuple[int, int]]) -> dict[int, set[int]]:
         """Return the points that cut edges, by the number of the edge; add the crossings."""
         cuts: dict[int, set[int]] = {}
+        count = 0
         for i, j in _open_pairs(self._unsorted, edges):
             check_budget()
             common = list(self._common_points(edges[i], edges[j]))
             if common:
                 cuts.setdefault(i, set()).update(common)
                 cuts.setdefault(j, set()).update(common)
+                count += 2 * len(common)
+            if count > MAX_CUTS:
+                raise InputError(f"its edges cross or touch in more than {MAX_CUTS // 2} points")
         return cuts
 
     def _common_points(self, e: tuple[int, int], f: tuple[int, int]) -> Iterator[int]:

@@ -19,10 +19,10 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
     """Return the union of bodies that move alike, as one body.
 
     Bodies that overlap, or have edges in common, cannot be the parts of one body, and no tiling
-    holds two bodies that touch. Their union has no such edges: its rings are what bounds the
-    bodies together, exactly. Its vertices are vertices of the bodies and crossings of their edges;
-    a vertex stays where its edges become straight. Parts that have only single points in common
-    stay parts.
+    holds two bodies that touch. Their union has no such edges: its rings are the boundary of
+    all of them together, exactly. Its vertices are vertices of the bodies and crossings of their
+    edges. A vertex stays where its edges become straight. Parts that have only single points in
+    common stay parts.
 
     >>> from exactpt import Translation
     >>> motion = Translation([0, 1])
@@ -65,7 +65,11 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
             "bodies with equal motions, or at rest, can be united"
         )
     parts = [part for body, points in outlines for part in _parts(body, points)]
-    made = [{"vertices": part.outline, "holes": part.holes} for part in overlay.union(parts)]
+    try:
+        united = overlay.union(parts)
+    except InputError as error:
+        raise InputError(f"union: {error}") from None
+    made = [{"vertices": part.outline, "holes": part.holes} for part in united]
     return Body(name, motion=motion, parts=made)
 
 

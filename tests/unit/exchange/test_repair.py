@@ -154,3 +154,17 @@ def test_the_command_repairs_and_leaves_out(tmp_path, capsys):
     assert "1 polygon of 4 vertices became 2 polygons of 6 vertices" in messages
     assert "left out: " in messages
     assert shapely.union_all(list(Scene.load(target).to_shapely(0).values())).area == 8
+
+
+@pytest.mark.parametrize("ending", ["wkt", "svg"])
+def test_too_many_crossings_are_refused(tmp_path, monkeypatch, ending):
+    """Each edge of this ring crosses most others: the memory is bounded."""
+    monkeypatch.setattr("exactpt.geometry.overlay.MAX_CUTS", 100)
+    points = [(k, 100 * (k % 2)) for k in range(60)] + [(60, 50), (-1, 50)]
+    file = tmp_path / f"shapes.{ending}"
+    ring = ", ".join(f"{x} {y}" for x, y in [*points, points[0]])
+    texts = {"wkt": f"POLYGON (({ring}))", "svg": f'<svg><polygon points="{ring}"/></svg>'}
+    file.write_text(texts[ending])
+
+    with pytest.raises(InputError, match=r"0.*: its edges cross or touch in more than 50 points"):
+        read_shapes(file, repair=True)
