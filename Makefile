@@ -8,6 +8,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
+MINUTES ?= 60
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling collision simulation))
 PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling pairs collision arrays query))
@@ -19,7 +20,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope old-engine night test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -77,6 +78,17 @@ test-compiled: compiled ## the tests of what is compiled
 
 small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another one each day: a minute
 	$(BIN)/python -m fuzz small-scope --today --seconds 60 --jobs $(JOBS)
+
+old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of the fuzzer, in .old-engine
+
+.old-engine/commit.txt: $(VENV)/developing fuzz/old_engine/build.py
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
+	$(BIN)/python -m fuzz.old_engine
+
+night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, planted mistakes
+	$(BIN)/python -m fuzz --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS)
+	$(BIN)/python -m fuzz --witness old --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS)
+	$(BIN)/python -m fuzz planted
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered
@@ -165,4 +177,4 @@ $(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
 	@touch $@
 
 clean: ## remove what was built (not .venv)
-	rm -rf build dist .pyodide cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf build dist .pyodide .old-engine cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from exactpt.files import write_atomically
-from exactpt.scene.generate import EVERY, families
+from exactpt.scene.generate import EVERY, SPINNING, families
 from exactpt.tiling.start import TILINGS
 from fuzz import battery, planted, soak
 from fuzz.campaign import INTERRUPTS
@@ -18,6 +18,7 @@ from fuzz.cases import QUESTION, Scenes
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.members import members
+from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
 from fuzz.proofs.command import certificates, proof_both, proof_mutants
@@ -28,8 +29,9 @@ from fuzz.small_scope.command import small_scope
 from fuzz.space_queries import compare_public_queries, score_engines
 from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
-from fuzz.witnesses import WITNESSES
+from fuzz.witnesses import OLD, WITNESSES
 
+EVERY_FAMILY = tuple(EVERY)
 FAMILIES = tuple(families("convex", "simple", "points", "rounded", "rings", "touching"))
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
 MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
@@ -38,9 +40,9 @@ MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for nam
 
 @click.command("fuzz", context_settings=HELP)
 @click.argument(
-    "families", nargs=-1, type=click.Choice([*sorted(FAMILIES), *ASKED]), metavar="[FAMILY]..."
+    "families", nargs=-1, type=click.Choice([*sorted(EVERY), *ASKED]), metavar="[FAMILY]..."
 )
-@click.option("--family", "more", multiple=True, type=click.Choice([*sorted(FAMILIES), *ASKED]))
+@click.option("--family", "more", multiple=True, type=click.Choice([*sorted(EVERY), *ASKED]))
 @click.option("--thin", is_flag=True, help="Reduce half of the bodies to chains, segments, points.")
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
 @click.option("--shrink", default=60.0, show_default=True, help="Seconds for shrinking a failure.")
@@ -52,12 +54,14 @@ def fuzz(
     """Look for scenes on which the witnesses disagree, and questions with wrong answers.
 
     By default 200 cases, a scene of each family and a question in turn. A named family or witness
-    leaves the questions out; a question is named as a family, questions/distance.
+    leaves the questions out; a question is named as a family, questions/distance. The witness "old"
+    is the engine of version 0.2 (make old-engine), which alone takes all families by default.
 
     \b
     Examples:
       python -m fuzz --cases 1000 --jobs 2
       python -m fuzz row grazing --witness reference --minutes 5
+      python -m fuzz --witness old --cases 2000
       python -m fuzz battery
       python -m fuzz planted
       python -m fuzz small-scope
@@ -69,15 +73,36 @@ def fuzz(
       python -m fuzz drawings --cases 5000
       python -m fuzz soak 60
     """
-    names = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
+    names = (*families, *more)
+    if witnesses != (OLD,) and (turning := [name for name in names if name in SPINNING]):
+        raise click.UsageError(f"{turning[0]}: bodies that spin are for --witness old alone")
+    if not names and witnesses == (OLD,):
+        names = EVERY_FAMILY
+    elif not names:
+        names = FAMILIES if thin or witnesses else MIXED
     if thin:
         names = tuple(name if name in ASKED else name + SUFFIX for name in names)
-    witnesses = witnesses or tuple(WITNESSES)
+    witnesses = _present(witnesses)
     if not {"cgal", "proof"}.isdisjoint(witnesses):
         require_cgal("--witness")
     click.echo(f"seed {chosen.seed}, witnesses {', '.join(witnesses)}")
     check = Scenes(names, witnesses, chosen.seed, shrink)
     conduct(check, chosen, whole=200, again=f"--seed {chosen.seed}")
+
+
+def _present(chosen: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the chosen witnesses, by default all; without the old engine if it is not built.
+
+    Raises:
+        UsageError: if it is chosen, and not built.
+    """
+    if is_built():
+        return chosen or tuple(WITNESSES)
+    if OLD in chosen:
+        raise click.UsageError("the witness old is not built; to build it: make old-engine")
+    if not chosen:
+        click.echo("the witness old is left out: it is not built (make old-engine)")
+    return chosen or tuple(name for name in WITNESSES if name != OLD)
 
 
 @click.command("battery", context_settings=HELP)

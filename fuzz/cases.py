@@ -20,13 +20,16 @@ from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tel
 from fuzz.limits import TimeIsUp, TooSlow, limit, patience_of, signed
 from fuzz.questions.command import KEPT, ask
 from fuzz.subscene import scene_of
-from fuzz.witnesses import WITNESSES, Difference
+from fuzz.witnesses import WITNESSES, Difference, LeftOutError
 
 __all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "shrunk"]
 
 
 QUESTION: Final = "questions/"
 """What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
+
+LEFT_OUT: Final = "left out"
+"""The column of the numbers of scenes about which a witness could say nothing."""
 
 USUAL: Final = 8
 SEVERAL: Final = {
@@ -117,7 +120,7 @@ class Scenes(Check):
         """One line for each family: cases, cases per second, failures, seconds by witness."""
         rows = sorted({row for row, _ in counts})
         columns = list(dict.fromkeys(column for _, column in counts))
-        timed = [column for column in columns if column not in ("cases", FOUND)]
+        timed = [column for column in columns if column not in ("cases", FOUND, LEFT_OUT)]
         total = defaultdict[str, float](int)
         for (_, column), n in counts.items():
             total[column] += n
@@ -131,6 +134,8 @@ class Scenes(Check):
             rate = line["cases"] / seconds if seconds else 0.0
             lines.append(f"{row:22}{line['cases']:>8}{rate:>10.1f}{line[FOUND]:>10}"
                          + "".join(f"{line[column]:>9.1f} s" for column in timed))  # fmt: skip
+        if total[LEFT_OUT]:
+            lines.append(f"{total[LEFT_OUT]} cases left out, of which a witness can say nothing")
         return lines
 
 
@@ -168,7 +173,10 @@ def run_case(
         tell(Step(most, _failure(name, HANGS, name, scene).of(case)))
         began = clock.perf_counter()
         try:
-            failure = failure_of(name, scene, case.seed, most, ends)
+            failure = _judged(name, scene, case.seed, most, ends)
+        except LeftOutError:
+            counts[case.family, LEFT_OUT] += 1
+            failure = None
         except TimeIsUp:
             if not found:
                 raise
@@ -213,6 +221,21 @@ def failure_of(
     Raises:
         TimeIsUp: at the end of the campaign.
     """
+    try:
+        return _judged(name, scene, turn, patience, ends)
+    except LeftOutError:
+        return None
+
+
+def _judged(
+    name: str, scene: Scene, turn: int | None, patience: float | None, ends: float | None
+) -> Failure | None:
+    """Return the same.
+
+    Raises:
+        LeftOutError: if the witness can say nothing.
+        TimeIsUp: at the end of the campaign.
+    """
     seconds = patience_of(scene) if patience is None else patience
     try:
         with limit(seconds, ends):
@@ -221,6 +244,8 @@ def failure_of(
         return _failure(name, HANGS, f"{HANGS}: no answer within {seconds:.1f} s", scene)
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
+    except LeftOutError:
+        raise
     except Exception as error:  # any exception is a finding
         return _failure(name, *signed(error), scene)
     return None

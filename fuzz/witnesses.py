@@ -11,15 +11,31 @@ from exactpt.collision.comparison import contrast, in_words
 from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.tiling.start import tilings_for
+from fuzz.old_engine.compare import compared
+from fuzz.old_engine.process import old_engine
 from fuzz.proofs.checking import checker
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
-__all__ = ["WITNESSES", "Difference", "Witness", "check_proof", "contact_by", "tilings_of"]
+__all__ = [
+    "OLD",
+    "WITNESSES",
+    "Difference",
+    "LeftOutError",
+    "Witness",
+    "check_proof",
+    "contact_by",
+    "tilings_of",
+]
+
+OLD: Final = "old"
+"""The name of the witness that is there only if it has been built, see `fuzz.old_engine`."""
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
 """A check of a scene; raises `Difference`, or any other exception, if it fails.
+
+It raises `LeftOutError` if it can say nothing about the scene.
 
 Its arguments are the scene and a turn: a number that selects one tiling and some of the
 variants, so that a campaign covers more scenes in its time. None selects all of them.
@@ -36,6 +52,10 @@ class Difference(Exception):  # noqa: N818 - a finding, the purpose of it all
     def __init__(self, kind: str, detail: str = "") -> None:
         super().__init__(f"{kind}: {detail}" if detail else kind)
         self.kind = kind
+
+
+class LeftOutError(Exception):
+    """A witness can say nothing about a scene, which is counted."""
 
 
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
@@ -138,6 +158,24 @@ def check_proof(scene: Scene, tiling: str, *, in_python: bool) -> None:
             raise Difference(f"{tiling}: proof in Python", str(rejected)) from None
 
 
+def old(scene: Scene, turn: int | None) -> None:
+    """Answers are those of the engine of version 0.2, byte for byte.
+
+    Raises:
+        LeftOutError: if that engine answers no question about the scene.
+    """
+    said = 0
+    for asked in compared(scene, tilings_of(scene), turn, old_engine()):
+        if asked.is_left_out:
+            continue
+        said += 1
+        if asked.new != asked.old:
+            kind = f"{asked.question}: {asked.new.kind}"
+            raise Difference(kind, f"{asked.arguments}: {asked.new.text}, once {asked.old.text}")
+    if not said:
+        raise LeftOutError
+
+
 WITNESSES: Final[dict[str, Witness]] = {
     "reference": reference,
     "static": static,
@@ -145,6 +183,7 @@ WITNESSES: Final[dict[str, Witness]] = {
     "symmetry": symmetry,
     "cgal": cgal,
     "proof": proof,
+    OLD: old,
 }
 """The witnesses by name."""
 
