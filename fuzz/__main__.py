@@ -12,7 +12,7 @@ import click
 from exactpt.files import write_atomically
 from exactpt.scene.generate import EVERY, SPINNING, families
 from exactpt.tiling.start import TILINGS
-from fuzz import battery, planted, soak
+from fuzz import awkward, battery, planted, soak
 from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
 from fuzz.drawings import drawings
@@ -34,8 +34,9 @@ from fuzz.witnesses import OLD, WITNESSES
 EVERY_FAMILY = tuple(EVERY)
 FAMILIES = tuple(families("convex", "simple", "points", "rounded", "rings", "touching"))
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
-MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
-"""A scene and a question in turn."""
+TWICE = (*FAMILIES, *(name + awkward.SUFFIX for name in FAMILIES))
+MIXED = tuple(name for pair in zip(TWICE, cycle(ASKED), strict=False) for name in pair)
+"""A scene and a question in turn: first of each family as it is, then an awkward one of each."""
 
 
 @click.command("fuzz", context_settings=HELP)
@@ -44,18 +45,25 @@ MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for nam
 )
 @click.option("--family", "more", multiple=True, type=click.Choice([*sorted(EVERY), *ASKED]))
 @click.option("--thin", is_flag=True, help="Reduce half of the bodies to chains, segments, points.")
+@click.option(
+    "--awkward",
+    "is_awkward",
+    is_flag=True,
+    help="Replace scenes by images in which no number is a double.",
+)
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
 @click.option("--shrink", default=60.0, show_default=True, help="Seconds for shrinking a failure.")
 @options(None)
 def fuzz(
     chosen: Options, families: tuple[str, ...], more: tuple[str, ...], witnesses: tuple[str, ...],
-    shrink: float, *, thin: bool,
+    shrink: float, *, thin: bool, is_awkward: bool,
 ) -> None:  # fmt: skip
     """Look for scenes on which the witnesses disagree, and questions with wrong answers.
 
-    By default 200 cases, a scene of each family and a question in turn. A named family or witness
-    leaves the questions out; a question is named as a family, questions/distance. The witness "old"
-    is the engine of version 0.2 (make old-engine), which alone takes all families by default.
+    By default 200 cases, a scene of each family and a question in turn; in a second round scenes
+    are awkward: no number is a double. A named family or witness leaves the questions out; a
+    question is named as a family, questions/distance. The witness "old" is the engine of version
+    0.2 (make old-engine), which alone takes all families by default.
 
     \b
     Examples:
@@ -79,9 +87,11 @@ def fuzz(
     if not names and witnesses == (OLD,):
         names = EVERY_FAMILY
     elif not names:
-        names = FAMILIES if thin or witnesses else MIXED
+        names = FAMILIES if thin or is_awkward or witnesses else MIXED
     if thin:
         names = tuple(name if name in ASKED else name + SUFFIX for name in names)
+    if is_awkward:
+        names = tuple(name if name in ASKED else name + awkward.SUFFIX for name in names)
     witnesses = _present(witnesses)
     if not {"cgal", "proof"}.isdisjoint(witnesses):
         require_cgal("--witness")
@@ -129,13 +139,17 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
 @click.option("--cases", "most", type=click.IntRange(min=1), default=400, show_default=True)
 @click.option("--seed", type=int, default=0, show_default=True)
 def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
-    """Plant classic bugs one at a time, and count the scenes until the fuzzer finds them."""
+    """Plant classic bugs one at a time, and count the cases until the fuzzer finds them.
+
+    A few are masked: no answer can show them, for the reason that fuzz/planted.py gives. One of
+    these that is found counts as one that has escaped.
+    """
     click.echo(planted.table([])[0])
     escaped = 0
     for bug in planted.PLANTED:
         if not words or any(word in bug for word in words):
             found = planted.hunt(bug, most, seed=seed)
-            escaped += found.failure is None
+            escaped += not found.is_as_expected
             click.echo(planted.table([found])[1])
     click.echo(f"{escaped} escaped")
     sys.exit(FAILED if escaped else 0)

@@ -1,21 +1,26 @@
 """Planted bugs: classic mistakes, made one at a time, that the fuzzer must find.
 
 They show that the fuzzer would find a fault if there were one. Each mistake is a temporary
-patch of one function.
+change of one function, given by a replacement of its text or of the whole function: so it outlives
+renumbered lines and renamed modules. It is hunted where its kind shows: in scenes of families, in
+awkward ones, in the small scope, or by a question.
 """
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import textwrap
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
-from typing import Any, Final
+from random import Random
+from typing import Any, Final, TypeAlias
 from unittest.mock import patch
 
 from exactpt import AlgebraicNumber, InputError
+from exactpt.arrays import radii, turning
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
@@ -23,7 +28,15 @@ from exactpt.collision import driver
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel import filters, roots
 from exactpt.kernel.integer_polynomial import negate
+from exactpt.motion import track
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.track import Track
+from exactpt.pairs import boxes, clearance, near_features, search
+from exactpt.pairs.boxes import PieceBoxes
+from exactpt.pairs.search import LinearSearch
+from exactpt.query import locate
+from exactpt.query.sight import FreeTriangles
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
@@ -31,19 +44,52 @@ from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
-from fuzz.cases import Failure, failure_of
+from fuzz.awkward import SUFFIX, awkward
+from fuzz.cases import QUESTION, Failure, failure_of
+from fuzz.questions.command import KEPT, ask
 from fuzz.small_scope.look import look
 from fuzz.small_scope.scope import planned
 
-__all__ = ["PLANTED", "WITNESSES", "Found", "hunt", "table"]
+__all__ = ["PLANTED", "WITNESSES", "Found", "Mistake", "hunt", "table"]
 
 WITNESSES: Final = ("reference", "static", "filters", "symmetry")
 
-IN_SMALL_SCOPE: Final = frozenset({"even zeros of copies ignored"})
-"""Bugs that hardly show in families: they are hunted in the small scope."""
+FAMILIES_AS_THEY_ARE: Final = "families"
+AWKWARD_FAMILIES: Final = "awkward families"
+THE_SMALL_SCOPE: Final = "the small scope"
+"""Where a mistake is hunted; or by a question, "questions/..."."""
 
 SMALL_SCOPE: Final = 1000
-"""Number of scenes of the small scope in which these are looked for."""
+"""Number of scenes of the small scope in which a mistake is looked for."""
+
+EASY: Final = 5
+"""Number of cases of a question that take about as long as a scene of a family."""
+
+WIDTH: Final = 50
+"""Width of the column of the names of mistakes."""
+
+RADIUS_IS_MASKED: Final = (
+    "A radius r is too small by less than 2 U r. From boxes [b, e] of the differences of two "
+    "bodies times are bounded with a margin of at least 16 U (|b| + |e|), of which rounding needs "
+    "less than half; and e - b is at least twice the sum of the radii. The margin of oriented "
+    "boxes is that of the reach times 1 + 10^-10. Below the doubles each margin has 2^-500. Beyond "
+    "them, a pair with finite bounds is nearer than the largest double all the time, and so in "
+    "contact at the start."
+)
+SQUARES_ARE_MASKED: Final = (
+    "Bodies are farther apart than R at the start, so that the constant term v of the squared "
+    "distance is at least R^2, up to its own error. The rounding of R^2, of which R is a rounded "
+    "sum, and of the difference is at most 4 U R^2 + U v; that of v at most 2 U v; and the bound "
+    "of v is at least 32 U v, by 16 U for each of two or more coefficients."
+)
+COPIES_ARE_MASKED: Final = (
+    "The order is asked for only at a corner p between two edges to copies of one vertex v, in a "
+    "tile that is no triangle. At the scale of the copies, such a tile ends in a strip in the "
+    "direction of p, which closes when the corner is violated. A third copy of a point is off the "
+    "line of the two, and leaves the strip before. The rest of a chain is in it only if an edge of "
+    "v points to p, and copies of v are beside its edges, never along them. So by then the tile is "
+    "a triangle, of which another function takes care."
+)
 
 Function = Callable[..., Any]
 
@@ -53,15 +99,25 @@ def _replaced(owner: object, name: str, make: Callable[[Function], Function]) ->
     return patch.object(owner, name, make(getattr(owner, name)))
 
 
-def _edited(owner: Any, name: str, old: str, new: str) -> Any:
-    """A context in which a function has another text, of which ``old`` is replaced by ``new``."""
-    right = getattr(owner, name)
+@contextlib.contextmanager
+def _edited(owner: Any, name: str, old: str, new: str) -> Iterator[None]:
+    """A context in which a function has another text, of which ``old`` is replaced by ``new``.
+
+    The code of the function is exchanged, not the function: whoever has imported it by name makes
+    the mistake too.
+    """
+    right = inspect.unwrap(getattr(owner, name))
     text = textwrap.dedent(inspect.getsource(right))
     if text.count(old) != 1:
         raise InputError(f"planted: {name} has {text.count(old)} times the text {old!r}")
     made: dict[str, Any] = {}
     exec(text.replace(old, new), right.__globals__, made)
-    return patch.object(owner, name, made[name])
+    code = right.__code__
+    right.__code__ = inspect.unwrap(made[name]).__code__
+    try:
+        yield
+    finally:
+        right.__code__ = code
 
 
 def _sign_at_a_root(right: Function) -> Function:
@@ -208,68 +264,256 @@ def _unguarded(right: Function) -> Function:
     return wrong
 
 
-PLANTED: Final[dict[str, Callable[[], Any]]] = {
-    "sign before for sign after": lambda: _replaced(
-        Certifier, "_exact_orientation", _sign_at_a_root
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """A mistake.
+
+    Attributes:
+        kind: the kind of the mistake, a sentence.
+        made: returns a context in which it is made.
+        hunted: where it is hunted.
+        masked: why no answer can show it, if none can.
+    """
+
+    kind: str
+    made: Callable[[], Any]
+    hunted: str = FAMILIES_AS_THEY_ARE
+    masked: str = ""
+
+
+PLANTED: Final[dict[str, Mistake]] = {
+    "sign before for sign after": Mistake(
+        "A sign is taken on the wrong side of a time at which it changes.",
+        lambda: _replaced(Certifier, "_exact_orientation", _sign_at_a_root),
     ),
-    "sign of a certificate flipped": lambda: _replaced(coefficients, "_three", _flipped),
-    "events dropped": lambda: _replaced(EventQueue, "schedule_crossing", _events_dropped),
-    "equal times not equal": lambda: _replaced(EventQueue, "_compare", _order_of_ties),
-    "even roots ignored": lambda: _replaced(certifier, "roots_after", _even_roots),
-    "even zeros of copies ignored": lambda: _replaced(
-        Certifier, "_exact_orientation", _even_zeros_of_copies
+    "sign of a certificate flipped": Mistake(
+        "One of several forms of a certificate has the other orientation.",
+        lambda: _replaced(coefficients, "_three", _flipped),
     ),
-    "contact proof skipped": lambda: _replaced(engine, "may_touch", _always(False)),
-    "straight chains not followed": lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
-    "vertex on vertex ignored": lambda: _replaced(incidences, "coincide", _no_meetings),
-    "the wrong diagonal gives way": lambda: _replaced(
-        Repairs, "_repair_reflex_angle", _wrong_diagonal
+    "events dropped": Mistake(
+        "An event is lost, now and then.",
+        lambda: _replaced(EventQueue, "schedule_crossing", _events_dropped),
     ),
-    "pieces not certified anew": lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
-    "rigid by mistake": lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
-    "order of ties swapped": lambda: _replaced(perturbation, "x_order_terms", _swapped),
-    "containment at the start missed": lambda: _replaced(
-        driver, "initial_touches", _first_body_only
+    "equal times not equal": Mistake(
+        "Times that no double tells apart count as different.",
+        lambda: _replaced(EventQueue, "_compare", _order_of_ties),
     ),
-    "x-order kept for ever": lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
-    "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),
-    "filter bound too small": lambda: _replaced(Certifier, "__init__", _unguarded),
-    "ties lost in the queue": lambda: _edited(
-        EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"
+    "even roots ignored": Mistake(
+        "Where a sign does not change, nothing is thought to happen.",
+        lambda: _replaced(certifier, "roots_after", _even_roots),
     ),
-    "the wrong end of a corner gives way": lambda: _edited(
-        Repairs, "_repair_corner", "if side > 0", "if side < 0"
+    "even zeros of copies ignored": Mistake(
+        "The same, in a case that hardly shows in families.",
+        lambda: _replaced(Certifier, "_exact_orientation", _even_zeros_of_copies),
+        THE_SMALL_SCOPE,
     ),
-    "the angle across not certified": lambda: _edited(
-        Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
+    "contact proof skipped": Mistake(
+        "A necessary test is left out.", lambda: _replaced(engine, "may_touch", _always(False))
     ),
-    "the wrong end of an isolated edge slides": lambda: _edited(
-        IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"
+    "straight chains not followed": Mistake(
+        "A degenerate place counts as a general one.",
+        lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
     ),
-    "a contact taken for an isolated event": lambda: _edited(
-        IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"
+    "vertex on vertex ignored": Mistake(
+        "One of two kinds of incidences is forgotten.",
+        lambda: _replaced(incidences, "coincide", _no_meetings),
     ),
-    "an isolated angle across not certified": lambda: _edited(
-        IsolatedEvents,
-        "_recertify",
-        "twin(h), before, following[before]",
-        "twin(h), before, before",
+    "the wrong diagonal gives way": Mistake(
+        "Of two things that are alike the wrong one is taken.",
+        lambda: _replaced(Repairs, "_repair_reflex_angle", _wrong_diagonal),
     ),
-    "ends of pieces missed": lambda: _replaced(Clock, "end_of_piece", _always(None)),
-    "swept boxes too small": lambda: _edited(
-        SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("
+    "pieces not certified anew": Mistake(
+        "Something that has changed is not looked at again.",
+        lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
     ),
-    "the last root taken for the first": lambda: _edited(
-        roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
+    "rigid by mistake": Mistake(
+        "What holds for two is taken to hold for three.",
+        lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
     ),
-    "the end of the span left out": lambda: _edited(
-        Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"
+    "order of ties swapped": Mistake(
+        "A tie is broken in the other way.",
+        lambda: _replaced(perturbation, "x_order_terms", _swapped),
     ),
-    "vertical bitangents ignored": lambda: _replaced(
-        VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
+    "containment at the start missed": Mistake(
+        "Boundaries are compared, and what is inside them is not.",
+        lambda: _replaced(driver, "initial_touches", _first_body_only),
+    ),
+    "x-order kept for ever": Mistake(
+        "What holds now is taken to hold for ever.",
+        lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
+    ),
+    "root enclosures too narrow": Mistake(
+        "An enclosure is narrower than what is proved.",
+        lambda: _replaced(filters, "linear", _narrow),
+    ),
+    "filter bound too small": Mistake(
+        "Rounded numbers are taken for exact ones.",
+        lambda: _replaced(Certifier, "__init__", _unguarded),
+    ),
+    "ties lost in the queue": Mistake(
+        "A bound is taken to be excluded that is included.",
+        lambda: _edited(EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"),
+    ),
+    "the wrong end of a corner gives way": Mistake(
+        "One of two directions is confused with the other.",
+        lambda: _edited(Repairs, "_repair_corner", "if side > 0", "if side < 0"),
+    ),
+    "the angle across not certified": Mistake(
+        "One of several places that change is forgotten.",
+        lambda: _edited(
+            Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
+        ),
+    ),
+    "the wrong end of an isolated edge slides": Mistake(
+        "One of two directions is confused with the other, on a fast way.",
+        lambda: _edited(
+            IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"
+        ),
+    ),
+    "a contact taken for an isolated event": Mistake(
+        "A fast way is taken where it does not apply.",
+        lambda: _edited(
+            IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"
+        ),
+    ),
+    "an isolated angle across not certified": Mistake(
+        "One of several places that change is forgotten, on a fast way.",
+        lambda: _edited(
+            IsolatedEvents,
+            "_recertify",
+            "twin(h), before, following[before]",
+            "twin(h), before, before",
+        ),
+    ),
+    "ends of pieces missed": Mistake(
+        "A kind of event is forgotten.",
+        lambda: _replaced(Clock, "end_of_piece", _always(None)),
+    ),
+    "swept boxes too small": Mistake(
+        "A box does not contain what it stands for.",
+        lambda: _edited(SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("),
+    ),
+    "the last root taken for the first": Mistake(
+        "Of several solutions the wrong one is taken.",
+        lambda: _edited(
+            roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
+        ),
+    ),
+    "the end of the span left out": Mistake(
+        "A closed interval is taken for an open one.",
+        lambda: _edited(
+            Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"
+        ),
+    ),
+    "vertical bitangents ignored": Mistake(
+        "A rule of one tiling is not applied.",
+        lambda: _replaced(
+            VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
+        ),
+    ),
+    "single times left out": Mistake(
+        "A closed interval that is a single time is taken for none.",
+        lambda: _edited(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
+        "questions/below",
+    ),
+    "a term of an error forgotten": Mistake(
+        "One of the terms of a bound is left out, which only large edges show.",
+        lambda: _edited(near_features, "_may_be_least", "far * off_edge + ", ""),
+        "questions/moving",
+    ),
+    "times before 0 forgotten": Mistake(
+        "The largest size of a time is taken to be that of the end of its span.",
+        lambda: _edited(
+            PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"
+        ),
+        "questions/convoy",
+    ),
+    "a radius rounded down": Mistake(
+        "A bound is rounded to the wrong side.",
+        lambda: _edited(boxes, "radius_above", "(body._radius)[1]", "(body._radius)[0]"),
+        "questions/convoy",
+        RADIUS_IS_MASKED,
+    ),
+    "vertices of swapped bodies not swapped": Mistake(
+        "Of two bodies that are put in order, only the names change places.",
+        lambda: _edited(
+            track,
+            "vertex_touch",
+            "Touch(other, other_vertex, body, -1, vertex)",
+            "Touch(other, vertex, body, -1, other_vertex)",
+        ),
+    ),
+    "places at the start off by less": Mistake(
+        "The constant of a bound is too small, which far bodies show alone.",
+        lambda: _edited(turning, "_at_start", "64.0 * U", "0.5 * U"),
+        "questions/batch",
+    ),
+    "an isolated angle across not certified, mirrored": Mistake(
+        "Of two mirrored branches, one forgets a place that changes.",
+        lambda: _edited(IsolatedEvents, "_recertify", "h, t, following[t]", "h, t, before"),
+    ),
+    "the edges beside an isolated corner swapped": Mistake(
+        "Before and after are confused.",
+        lambda: _edited(
+            IsolatedEvents,
+            "_choose",
+            "stays_after if order > 0 else stays_before",
+            "stays_before if order > 0 else stays_after",
+        ),
+    ),
+    "the order of copies swapped": Mistake(
+        "The arguments of a function that is antisymmetric change places.",
+        lambda: _edited(
+            Repairs,
+            "_repair_corner",
+            "nearer_copy(certifier, vp, va, vb)",
+            "nearer_copy(certifier, vp, vb, va)",
+        ),
+        THE_SMALL_SCOPE,
+        COPIES_ARE_MASKED,
+    ),
+    "walls in line block the way": Mistake(
+        "A path along a wall, or through its end, counts as one across it.",
+        lambda: _edited(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
+        "questions/paths",
+    ),
+    "hits at the goal missed": Mistake(
+        "The end of a closed segment is taken to be excluded.",
+        lambda: _edited(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
+        "questions/places",
+    ),
+    "rounded constants taken for exact": Mistake(
+        "Rounded numbers are taken for exact ones, where in most scenes they are.",
+        lambda: _edited(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
+        AWKWARD_FAMILIES,
+    ),
+    "no contact for a double too long": Mistake(
+        "A bound is rounded to the wrong side, where only the last double shows it.",
+        lambda: _edited(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
+        "questions/budgets",
+    ),
+    "a loop that does not look at the clock": Mistake(
+        "A limit is not kept: no answer is wrong, but it comes too late.",
+        lambda: _edited(
+            search._Search,
+            "run",
+            "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
+            "if self._deadline is not None and clock.monotonic() - 3600 >",
+        ),
+        "questions/budgets",
+    ),
+    "the rounding of a square forgotten": Mistake(
+        "The last operation of a formula is not in the bound of its error.",
+        lambda: _edited(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
+        "questions/batch",
+        SQUARES_ARE_MASKED,
+    ),
+    "numbers packed for another width": Mistake(
+        "A value that is kept is used where it does not fit any more.",
+        lambda: _edited(Track, "packed", "kept != width", "kept < width"),
     ),
 }
-"""The mistakes: functions that return a context in which the mistake is made."""
+"""The mistakes by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -279,20 +523,27 @@ class Found:
     Attributes:
         bug: its name.
         failure: the failure found; None if there was none.
-        family: the family of the scene.
-        scenes: number of scenes checked.
+        place: the family of the scene, the question or the small scope.
+        cases: number of cases checked.
         seconds: processor time.
     """
 
     bug: str
     failure: Failure | None
-    family: str
-    scenes: int
+    place: str
+    cases: int
     seconds: float
+
+    @property
+    def is_as_expected(self) -> bool:
+        """True if it was found; or if it was not, and no answer can show it."""
+        return (self.failure is None) == bool(PLANTED[self.bug].masked)
 
 
 def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
-    """Look for a planted bug in at most ``most`` scenes of a campaign, or of the small scope.
+    """Look for a planted bug where it is hunted, in at most ``most`` scenes of families.
+
+    In the small scope there are `SMALL_SCOPE` scenes; a question is asked `EASY` times as often.
 
     Raises:
         InputError: if the package is compiled: compiled functions cannot be patched.
@@ -300,36 +551,72 @@ def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: 
     if not filters.__file__.endswith(".py"):
         raise InputError("mistakes are planted in the plain package only: make plain")
     began = clock.process_time()
-    if bug in IN_SMALL_SCOPE:
-        return _hunt_in_small_scope(bug, began)
+    mistake = PLANTED[bug]
+    if mistake.hunted == THE_SMALL_SCOPE:
+        cases = _in_small_scope(mistake)
+    elif mistake.hunted.startswith(QUESTION):
+        cases = _by_question(mistake, EASY * most, seed)
+    else:
+        cases = _in_families(mistake, most, witnesses, seed)
+    checked = 0
+    for place, failure in cases:
+        checked += 1
+        if failure is not None:
+            return Found(bug, failure, place, checked, clock.process_time() - began)
+    return Found(bug, None, "", checked, clock.process_time() - began)
+
+
+Cases: TypeAlias = "Iterator[tuple[str, Failure | None]]"
+"""Where a case is from, and its failure if it has one."""
+
+
+def _in_families(mistake: Mistake, most: int, witnesses: Sequence[str], seed: int) -> Cases:
+    """Check scenes of the families, taken in turn, by witnesses."""
     families = list(FAMILIES)
     for number in range(most):
-        family = families[number % len(families)]
-        scene = generate(family, seed + number // len(families))
-        with PLANTED[bug]():
+        family, turn = families[number % len(families)], seed + number // len(families)
+        scene = generate(family, turn)
+        if mistake.hunted == AWKWARD_FAMILIES:
+            scene = awkward(scene, Random(f"{family} {turn}"))
+            family += SUFFIX
+        failure: Failure | None = None
+        with mistake.made():
             for witness in witnesses:
                 failure = failure_of(witness, scene, number, patience=5.0)
                 if failure is not None:
-                    return Found(bug, failure, family, number + 1, clock.process_time() - began)
-    return Found(bug, None, "", most, clock.process_time() - began)
+                    break
+        yield family, failure
 
 
-def _hunt_in_small_scope(bug: str, began: float) -> Found:
+def _in_small_scope(mistake: Mistake) -> Cases:
     for number in range(SMALL_SCOPE):
-        with PLANTED[bug]():
+        with mistake.made():
             seen = look(planned(number))
-        for answer in seen.answers:
-            if answer.fault is not None:
-                failure = Failure(answer.method, answer.fault, answer.fault, "")
-                seconds = clock.process_time() - began
-                return Found(bug, failure, "the small scope", number + 1, seconds)
-    return Found(bug, None, "", SMALL_SCOPE, clock.process_time() - began)
+        faults = [answer for answer in seen.answers if answer.fault is not None]
+        failure = None
+        for answer in faults[:1]:
+            failure = Failure(answer.method, answer.fault or "", answer.fault or "", "")
+        yield THE_SMALL_SCOPE, failure
+
+
+def _by_question(mistake: Mistake, most: int, seed: int) -> Cases:
+    """Ask the question of a mistake, which is compared with its definition."""
+    question = mistake.hunted.removeprefix(QUESTION)
+    for number in range(most):
+        with mistake.made():
+            asked = ask(question, seed, number, lambda _: None, None, KEPT)
+        failure = None
+        for finding in asked.findings[:1]:
+            failure = Failure("question", finding.signature, finding.why, "")
+        yield mistake.hunted, failure
 
 
 def table(found: Sequence[Found]) -> list[str]:
     """One line for each planted bug."""
-    lines = [f"{'planted bug':34}{'scenes':>7}{'seconds':>9}  found by"]
+    lines = [f"{'planted bug':{WIDTH}}{'cases':>7}{'seconds':>9}  found by"]
     for f in found:
-        by = f"{f.failure.witness}, {f.family}: {f.failure.signature}" if f.failure else "NOTHING"
-        lines.append(f"{f.bug:34}{f.scenes:>7}{f.seconds:>9.1f}  {by}")
+        by = "masked" if PLANTED[f.bug].masked else "NOTHING"
+        if f.failure is not None:
+            by = f"{f.failure.witness}, {f.place}: {f.failure.signature}"
+        lines.append(f"{f.bug:{WIDTH}}{f.cases:>7}{f.seconds:>9.1f}  {by}")
     return lines

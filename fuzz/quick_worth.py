@@ -78,8 +78,8 @@ class Fault(NamedTuple):
 
 def planted() -> list[Fault]:
     """Return the mistakes of `fuzz.planted`."""
-    return [Fault(f"planted: {name}", SEARCHES, "", functools.partial(_enter, make))
-            for name, make in PLANTED.items()]  # fmt: skip
+    return [Fault(f"planted: {name}", SEARCHES, "", functools.partial(_enter, mistake.made))
+            for name, mistake in PLANTED.items()]  # fmt: skip
 
 
 def _enter(make: Callable[[], Any]) -> None:

@@ -14,6 +14,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from fuzz import awkward
 from fuzz.thin import SUFFIX, thinned
 
 __all__ = ["scene_of", "subscene"]
@@ -33,9 +34,12 @@ def scene_of(family: str, seed: int) -> Scene:
 
     Args:
         family: the name of a family; with `fuzz.thin.SUFFIX`, half of the bodies are replaced by
-            parts of their boundaries.
+            parts of their boundaries; with `fuzz.awkward.SUFFIX` the scene by an awkward image.
         seed: seed of the scene.
     """
+    if family.endswith(awkward.SUFFIX):
+        scene = scene_of(family.removesuffix(awkward.SUFFIX), seed)
+        return awkward.awkward(scene, Random(f"{family}:{seed}"))
     name = family.removesuffix(SUFFIX)
     scene = generate(name, seed)
     if seed % WHOLE:

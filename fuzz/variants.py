@@ -253,6 +253,14 @@ VARIANTS: Final[Mapping[str, Variant]] = {
         renumber="reversed",
         reorder=True,
     ),
+    "awkward": Variant(
+        matrix=((QQ(15, 34), QQ(4, 17)), (QQ(4, 17), QQ(-15, 34))),
+        shift=(QQ(10, 3), QQ(-29, 7)),
+        rate=QQ(9, 13),
+        delay=QQ(1, 9),
+        drift=(QQ(-2, 13), QQ(1, 3)),
+        renumber="turned",
+    ),
     "backwards": Variant(rate=QQ(-1)),
 }
 """The variants by name. "backwards" preserves only that there is no contact."""
@@ -262,7 +270,7 @@ def expected_time(variant: Variant, time: AlgebraicNumber) -> AlgebraicNumber:
     """The image of a time."""
     if variant.rate == 1 and variant.delay == 0:
         return time
-    low, high = (variant.rate * t + variant.delay for t in (time.low, time.high))
+    low, high = sorted(variant.rate * t + variant.delay for t in (time.low, time.high))
     if low == high:
         return AlgebraicNumber(low)
     inverse = Polynomial([-variant.delay / variant.rate, 1 / variant.rate])

@@ -15,6 +15,7 @@ Its first line says what runs: {"version": "0.2.0", "where": "/.../exactpt/__ini
 
 from __future__ import annotations
 
+import inspect
 import json
 import sys
 import traceback
@@ -29,6 +30,10 @@ __all__ = ["QUESTIONS", "answer_to"]
 
 Arguments: TypeAlias = "Mapping[str, Any]"
 """Values that JSON can hold; numbers that are not integers are texts like "1/3"."""
+
+_HAS_NORMS: Final = "norm" in inspect.signature(exactpt.first_within).parameters
+_EUCLIDEAN: Final[dict[str, Any]] = {"norm": "euclidean"} if _HAS_NORMS else {}
+"""The keyword by which the old version measures Euclidean distances; today's has no other."""
 
 
 def _first_contact(scene: Scene, arguments: Arguments) -> object:
@@ -65,7 +70,8 @@ def _clearance(scene: Scene, arguments: Arguments) -> object:
 
 def _within(scene: Scene, arguments: Arguments) -> object:
     distance = Fraction(arguments["distance"])
-    time = exactpt.first_within(scene, arguments["a"], arguments["b"], distance, norm="euclidean")
+    pair = arguments["a"], arguments["b"]
+    time = exactpt.first_within(scene, *pair, distance, **_EUCLIDEAN)
     return None if time is None else _number(time)
 
 
@@ -108,9 +114,14 @@ def _reply(request: Mapping[str, Any]) -> dict[str, str]:
 
 def _main() -> None:
     version = getattr(exactpt, "__version__", "0.2.0")
-    print(json.dumps({"version": version, "where": exactpt.__file__}), flush=True)
+    _say({"version": version, "where": exactpt.__file__})
     for line in sys.stdin:
-        print(json.dumps(_reply(json.loads(line))), flush=True)
+        _say(_reply(json.loads(line)))
+
+
+def _say(value: object) -> None:
+    sys.stdout.write(json.dumps(value) + "\n")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":

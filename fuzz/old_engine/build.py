@@ -1,8 +1,8 @@
 """Builds the old engine: a plain wheel of one commit of this repository, in a folder of its own.
 
-The folder, `.old-engine`, is not in the tree: it holds the wheel, what is installed from it (`site`)
-and the name of the commit. What the wheel needs (gmpy2, numpy, ...) is that of the environment in
-which it runs.
+The folder, `.old-engine`, is not in the tree: it holds the wheel, what is installed from it
+(`site`) and the name of the commit. What the wheel needs (gmpy2, numpy, ...) is that of the
+environment in which it runs.
 """
 
 from __future__ import annotations

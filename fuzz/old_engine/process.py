@@ -11,7 +11,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from select import select
-from typing import Any, Final, NamedTuple, final
+from typing import Final, NamedTuple, final
 
 from exactpt import Scene
 from exactpt.errors import AuditError, InputError

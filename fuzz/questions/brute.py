@@ -4,58 +4,73 @@ Written from the definitions in plain rational arithmetic; shares nothing with
 `exactpt.query` or the tilings.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from random import Random
+from typing import Any, TypeAlias
 
 from gmpy2 import mpq
 
+from exactpt import Body, Scene
+from exactpt.kernel.numbers import Rational
 
-def cross(o, a, b):
+Point: TypeAlias = "tuple[Any, Any]"
+"""A point with rational coordinates: mpq, `Fraction` or int."""
+Places: TypeAlias = "Mapping[str, list[Point]]"
+"""The points of each body, by its name."""
+Owner: TypeAlias = "tuple[str, int | None, int | None]"
+"""A body and its vertex or its edge, or neither inside it."""
+
+
+def cross(o: Point, a: Point, b: Point) -> Any:  # noqa: ANN401 - a rational of any type
+    """Return the cross product of a - o and b - o: positive if b is to the left of the line."""
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 
 
-def on_segment(p, a, b):
-    return (
-        cross(a, b, p) == 0
-        and min(a[0], b[0]) <= p[0] <= max(a[0], b[0])
-        and min(a[1], b[1]) <= p[1] <= max(a[1], b[1])
-    )
+def on_segment(p: Point, a: Point, b: Point) -> bool:
+    """Return True if a point lies in a closed segment."""
+    if cross(a, b, p) != 0:
+        return False
+    return all(bool(min(a[k], b[k]) <= p[k] <= max(a[k], b[k])) for k in (0, 1))
 
 
-class OpenChain(list):
+class OpenChain(list[Point]):
     """The points of an open chain; those of any other body are in a plain list."""
 
 
-class Rings(list):
+class Rings(list[Point]):
     """The points of a body with several rings, which are given as ranges.
 
     Attributes:
         parts: for each part its rings, the outline first.
     """
 
-    def __init__(self, points, parts):
+    def __init__(self, points: Iterable[Point], parts: Sequence[Sequence[range]]) -> None:
         super().__init__(points)
         self.parts = parts
 
 
-def points_of(scene, t):
+def points_of(scene: Scene, t: Rational) -> dict[str, list[Point]]:
     """name -> points, at a time."""
     at = scene.at(t)
     return {b.name: _points_of(b, [(mpq(x), mpq(y)) for x, y in at[b.name]]) for b in scene.bodies}
 
 
-def _points_of(body, points):
+def _points_of(body: Body, points: list[Point]) -> list[Point]:
     if len(body.rings) > 1:
         return Rings(points, body.parts)
     return points if body.closed else OpenChain(points)
 
 
-def rings_of(points):
+def rings_of(points: list[Point]) -> list[tuple[list[int], bool]]:
     """(vertices, whether it is a hole) of each ring of a body."""
     parts = points.parts if isinstance(points, Rings) else [[range(len(points))]]
     return [(list(ring), k > 0) for part in parts for k, ring in enumerate(part)]
 
 
-def split_into_parts(scene):
+def split_into_parts(scene: Places) -> dict[tuple[str, int], list[Point]]:
     """(name, part) -> points of each part of each body, as a body of its own."""
     found = {}
     for name, points in scene.items():
@@ -70,7 +85,7 @@ def split_into_parts(scene):
     return found
 
 
-def edges_of(points):
+def edges_of(points: list[Point]) -> list[tuple[int, Point, Point]]:
     """(number, a, b) of each edge; a body of one vertex has none, of two one."""
     if isinstance(points, Rings):
         return [
@@ -83,22 +98,23 @@ def edges_of(points):
     return [(i, points[i], points[(i + 1) % n]) for i in range(count)]
 
 
-def is_inside(p, points):
+def is_inside(p: Point, points: list[Point]) -> bool:
     """Whether a polygon, with its holes, has a point that is on none of its edges."""
-    return sum(
+    turns = sum(
         winding(p, [points[i] for i in ring]) % 2 * (-1 if is_hole else 1)
         for ring, is_hole in rings_of(points)
     )
+    return turns != 0
 
 
-def is_in_hole(p, points):
+def is_in_hole(p: Point, points: list[Point]) -> bool:
     """Whether a point is in a hole of a body."""
     return any(
         is_hole and winding(p, [points[i] for i in ring]) for ring, is_hole in rings_of(points)
     )
 
 
-def winding(p, points):
+def winding(p: Point, points: list[Point]) -> int:
     """How often a polygon of one ring turns around a point that is not on it."""
     total = 0
     for _, a, b in edges_of(points):
@@ -109,7 +125,7 @@ def winding(p, points):
     return total
 
 
-def owner(p, scene):
+def owner(p: Point, scene: Places) -> Owner | None:
     """(body, vertex, edge) of the body that has a point, or None; scene: name -> points."""
     for name, points in scene.items():
         if p in points:
@@ -122,14 +138,16 @@ def owner(p, scene):
     return None
 
 
-def first_hit(origin, direction, scene):
+def first_hit(
+    origin: Point, direction: Point, scene: Places
+) -> tuple[Any, str, int | None, int | None] | None:
     """(parameter, body, vertex, edge) of the first point of a ray in a body, or None."""
     found = owner(origin, scene)
     if found is not None:
         return (0, *found)
     (ox, oy), (dx, dy) = origin, direction
     tip = (ox + dx, oy + dy)
-    best = None
+    best: tuple[Any, str, int | None, int | None] | None = None
     for name, points in scene.items():
         for i, p in enumerate(points):
             if cross(origin, tip, p) == 0:
@@ -145,7 +163,7 @@ def first_hit(origin, direction, scene):
     return best
 
 
-def convex_hull(points):
+def convex_hull(points: list[Point]) -> list[Point]:
     """The strictly convex hull, counter-clockwise (gift wrapping)."""
     start = here = min(points)
     cycle = []
@@ -164,7 +182,7 @@ def convex_hull(points):
         here = best
 
 
-def crosses(p, q, scene):
+def crosses(p: Point, q: Point, scene: Places) -> bool:
     """Whether the open segment from p to q goes through a body (touching is fine)."""
     if p == q:
         return False
@@ -186,28 +204,30 @@ def crosses(p, q, scene):
     return False
 
 
-def bends_around(before, here, after, points, vertex):
+def bends_around(
+    before: Point, here: Point, after: Point, points: list[Point], vertex: int
+) -> bool:
     """Whether a path turns at a vertex of a body with the body on the inner side of the turn."""
     turn = cross(before, here, after)
     nearby = [
         b if a == points[vertex] else a for _, a, b in edges_of(points) if points[vertex] in (a, b)
     ]
 
-    def within(p):
+    def within(p: Point) -> bool:
         a, b = cross(here, before, p), cross(here, after, p)
         if turn == 0:  # back the way it came, around the end of a segment
-            return a == 0 and ahead(here, before, p)
-        return (a <= 0 <= b) if turn > 0 else (b <= 0 <= a)
+            return bool(a == 0) and ahead(here, before, p)
+        return bool(a <= 0 <= b if turn > 0 else b <= 0 <= a)
 
     return (turn != 0 or ahead(here, before, after)) and all(map(within, nearby))
 
 
-def ahead(o, a, p):
+def ahead(o: Point, a: Point, p: Point) -> bool:
     """Whether p, on the line through o and a, is on the side of a."""
-    return (a[0] - o[0]) * (p[0] - o[0]) + (a[1] - o[1]) * (p[1] - o[1]) > 0
+    return bool((a[0] - o[0]) * (p[0] - o[0]) + (a[1] - o[1]) * (p[1] - o[1]) > 0)
 
 
-def inner_point(points, rng):
+def inner_point(points: list[Point], rng: Random) -> Point:
     """A random point inside a polygon; the middle of the first edge of a chain; a point."""
     n = len(points)
     if n < 3 or isinstance(points, OpenChain):
@@ -226,7 +246,9 @@ def inner_point(points, rng):
             return p
 
 
-def anchors_beside(path, scene, inner):
+def anchors_beside(
+    path: Sequence[Point], scene: Mapping[Any, list[Point]], inner: Mapping[Any, Point]
+) -> dict[Any, Point]:
     """name -> a point of each body that a path does not pass; a body without one has none.
 
     A taut path touches bodies, and where it runs along an open chain its points do not tell on
@@ -235,6 +257,8 @@ def anchors_beside(path, scene, inner):
     than its distance from the anchors. Leaving anchors out keeps equal words equal.
 
     Args:
+        path: its vertices.
+        scene: the points of each body.
         inner: of each body, the point to be preferred; else it is a vertex.
     """
     legs = list(pairwise(path))
@@ -247,16 +271,18 @@ def anchors_beside(path, scene, inner):
     return beside
 
 
-def crossing_word(path, anchors):
-    """How a path passes above each anchor, reduced: equal for two paths with the same ends if
-    and only if one can be deformed into the other in the plane without the anchors.
+def crossing_word(path: Sequence[Point], anchors: Mapping[Any, Point]) -> list[tuple[Any, int]]:
+    """How a path passes above each anchor, reduced.
+
+    It is equal for two paths with the same ends if and only if one can be deformed into the other
+    in the plane without the anchors.
 
     No anchor is on a path. Each is a little to the left of where it is given, of two in one
     column the one whose name is first the farther: so no two are passed at once, none is left or
     right of an end by chance, and a way back passes them in the opposite order.
     """
     columns = sorted(anchors.items(), key=lambda anchor: (anchor[1][0], anchor[0]))
-    word = []
+    word: list[tuple[Any, int]] = []
     for p, q in pairwise(path):
         way = 1 if p[0] < q[0] else -1
         for name, (x, y) in columns[::way]:

@@ -35,8 +35,14 @@ from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.all_pairs import touches_at
+from fuzz.questions.batched import wrong_in_batch
+from fuzz.questions.below import wrong_intervals
+from fuzz.questions.budgets import wrong_at_the_end
 from fuzz.questions.chosen import wrong_choice
+from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
+from fuzz.questions.free_space import wrong_path, wrong_place
+from fuzz.questions.moving import wrong_clearance
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
@@ -384,6 +390,41 @@ def _overlay(random: Random) -> Checked:
     return Checked(drawing, drawing.kind, overlays.fault_of_drawing(drawing))
 
 
+def _below(random: Random) -> Checked:
+    """The intervals in which two bodies are within a distance."""
+    return Checked(*wrong_intervals(random))
+
+
+def _moving(random: Random) -> Checked:
+    """The clearance of two bodies of families, in each kind of motion."""
+    return Checked(*wrong_clearance(random))
+
+
+def _convoy(random: Random) -> Checked:
+    """The first contact of a crowd that moves almost alike for a very long time."""
+    return Checked(*wrong_in_convoy(random))
+
+
+def _batch(random: Random) -> Checked:
+    """A batch of pairs of turning bodies that touch at the start, and each by itself."""
+    return Checked(*wrong_in_batch(random))
+
+
+def _places(random: Random) -> Checked:
+    """Places, rays and free segments."""
+    return Checked(*wrong_place(random))
+
+
+def _paths(random: Random) -> Checked:
+    """Shortest paths, from both ends."""
+    return Checked(*wrong_path(random))
+
+
+def _budgets(random: Random) -> Checked:
+    """Searches whose time is over: they end, and what they have reached is true."""
+    return Checked(*wrong_at_the_end(random))
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "small-scope": _scope,
     "flips": _flips,
@@ -394,6 +435,13 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "restored": _restored,
     "approach": _approach,
     "intervals": _intervals,
+    "below": _below,
+    "moving": _moving,
+    "convoy": _convoy,
+    "places": _places,
+    "paths": _paths,
+    "budgets": _budgets,
+    "batch": _batch,
     "after-start": _after_start,
     "rounded": _rounded,
     "touching-rings": _touching_rings,

@@ -77,11 +77,13 @@ class Question(NamedTuple):
         calls: the public functions and methods that answer it.
         ask: the answer, in terms of the old scene.
         equal: what stays equal, for the table.
+        knows_no_direction: whether the answer is the same, in time reversed, if time is.
     """
 
     calls: tuple[str, ...]
     ask: Ask
     equal: str
+    knows_no_direction: bool = False
 
 
 @dataclass(frozen=True)
@@ -142,11 +144,14 @@ def _incidences(side: Side, pairs: Iterable[Pair]) -> list[_Incidence]:
         normal = pair.normal
         if normal is not None and v < w:
             normal = -normal[0], -normal[1]
+        if normal is not None:
+            normal = side.mirror.point(normal)
         body, other = side.scene.body(pair.body), side.scene.body(pair.other)
         is_signed = other.has_interior or bool(body.radius or other.radius)
         before = found.get(features)
         if before is None or before.normal is None:
-            found[features] = _Incidence(features, pair.point, normal, is_signed)
+            point = side.mirror.point(pair.point)
+            found[features] = _Incidence(features, point, normal, is_signed)
     return sorted(found.values(), key=lambda i: sorted(i.features))
 
 
@@ -223,13 +228,13 @@ def _contacts(side: Side, case: Case) -> Answer:  # noqa: ARG001
     found: dict[frozenset[str], list[tuple[AlgebraicNumber, AlgebraicNumber]]] = {}
     for i in exactpt.contacts(side.scene):
         names = frozenset({side.groups[i.a], side.groups[i.b]})
-        found.setdefault(names, []).append((i.start, i.end))
+        found.setdefault(names, []).append(side.mirror.interval(i.start, i.end))
     return {names: _union(intervals) for names, intervals in found.items()}
 
 
 def _intervals(side: Side, case: Case) -> Answer:
     return _union(
-        (i.start, i.end)
+        side.mirror.interval(i.start, i.end)
         for a, b in _pairs(side, case)
         for i in exactpt.contact_intervals(side.scene, a, b)
     )
@@ -252,7 +257,7 @@ def _distance(side: Side, case: Case) -> Answer:
     found = [
         (there, a, b)
         for a, b in _pairs(side, case)
-        for there in [exactpt.distance(side.scene, a, b, at=case.t)]
+        for there in [exactpt.distance(side.scene, a, b, at=side.mirror.time(case.t))]
     ]
     least = min(there.core_squared for there, _, _ in found)
     features = set()
@@ -394,13 +399,13 @@ def _space(side: Side, case: Case) -> FreeSpace:
 
 
 def _is_free(side: Side, case: Case) -> Answer:
-    p, q, _ = case.points
+    p, q, _ = map(side.mirror.point, case.points)
     return _space(side, case).is_free(p, q)
 
 
 def _locate(side: Side, case: Case) -> Answer:
     found: list[object] = []
-    for p in case.points:
+    for p in map(side.mirror.point, case.points):
         place = _space(side, case).locate(p)
         if place.body is None:
             found.append(place.is_free)
@@ -412,21 +417,23 @@ def _locate(side: Side, case: Case) -> Answer:
 
 
 def _ray_cast(side: Side, case: Case) -> Answer:
-    (ax, ay), (bx, by), _ = case.points
+    (ax, ay), (bx, by), _ = map(side.mirror.point, case.points)
     hit = _space(side, case).ray_cast((ax, ay), (bx - ax, by - ay))
     if hit is None:
         return None
     inside = hit.vertex is None and hit.edge is None
     place = side.groups[hit.body] if inside else _place(side, hit.body, hit)
-    return hit.at, hit.point, place
+    return hit.at, side.mirror.point(hit.point), place
 
 
 def _shortest_path(side: Side, case: Case) -> Answer:
-    return Length(_space(side, case).shortest_path(*case.points[:2]).length)
+    p, q, _ = map(side.mirror.point, case.points)
+    return Length(_space(side, case).shortest_path(p, q).length)
 
 
 def _shorten(side: Side, case: Case) -> Answer:
-    return Length(_space(side, case).shorten(case.points).length)
+    points = [side.mirror.point(p) for p in case.points]
+    return Length(_space(side, case).shorten(points).length)
 
 
 @dataclass(frozen=True)
@@ -456,6 +463,8 @@ def _relative_hull(side: Side, case: Case) -> Answer:
 def _corners(side: Side, names: Iterable[tuple[str, int]]) -> Answer:
     """Return the old vertices of a loop, from the least one on: new ones are in edges."""
     found = [f for f in (side.vertices[name] for name in names) if f.kind == "vertex"]
+    if not side.mirror.is_orientation_kept:
+        found.reverse()
     k = found.index(min(found)) if found else 0
     if len(set(found)) < len(found):
         return sorted(set(found))  # a loop without area passes a vertex twice
@@ -465,11 +474,11 @@ def _corners(side: Side, names: Iterable[tuple[str, int]]) -> Answer:
 def _positions(side: Side, case: Case) -> Answer:
     found = {}
     for body in side.scene.bodies:
-        places = body.at(case.t)
+        places = body.at(side.mirror.time(case.t))
         for i, place in enumerate(places):
             feature = side.vertices[body.name, i]
             if feature.kind == "vertex":
-                found[feature] = place
+                found[feature] = side.mirror.point(place)
     return found
 
 
@@ -490,11 +499,24 @@ QUESTIONS: Final[Mapping[str, Question]] = {
     "contact of some pairs": Question(("first_contact",), _between, "the contact"),
     "contact, ignoring a group": Question(("first_contact",), _ignoring, "the contact"),
     "contact since a time": Question(("first_contact",), _since, "the contact"),
-    "all contacts": Question(("contacts",), _contacts, "the union of the intervals of all parts"),
-    "contact intervals": Question(
-        ("contact_intervals",), _intervals, "the union of the intervals of all parts"
+    "all contacts": Question(
+        ("contacts",),
+        _contacts,
+        "the union of the intervals of all parts",
+        knows_no_direction=True,
     ),
-    "distance": Question(("distance",), _distance, "the least distance of the parts, its features"),
+    "contact intervals": Question(
+        ("contact_intervals",),
+        _intervals,
+        "the union of the intervals of all parts",
+        knows_no_direction=True,
+    ),
+    "distance": Question(
+        ("distance",),
+        _distance,
+        "the least distance of the parts, its features",
+        knows_no_direction=True,
+    ),
     "clearance": Question(
         ("clearance",), _clearance, "the least minimum of the parts, its time; the values"
     ),
@@ -522,7 +544,12 @@ QUESTIONS: Final[Mapping[str, Question]] = {
     "relative hull": Question(
         ("FreeSpace.relative_hull",), _relative_hull, "as the hull, if the body is one in both"
     ),
-    "positions": Question(("Body.at", "Scene.at"), _positions, "the position of each old vertex"),
+    "positions": Question(
+        ("Body.at", "Scene.at"),
+        _positions,
+        "the position of each old vertex",
+        knows_no_direction=True,
+    ),
 }
 """The questions by name."""
 
@@ -533,6 +560,8 @@ def answer(question: Question, side: Side, case: Case) -> Answer:
     Raises:
         NotAskedError: if the question does not apply.
     """
+    if side.mirror.turning is not None and not question.knows_no_direction:
+        raise NotAskedError
     try:
         return question.ask(side, case)
     except InputError as error:

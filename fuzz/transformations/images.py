@@ -6,14 +6,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from random import Random
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
 
-from exactpt import Body, FreeSpace, InputError, Polynomial, Scene
+from exactpt import AlgebraicNumber, Body, FreeSpace, InputError, Polynomial, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import Position
 from fuzz.questions.reference import nearest
+from fuzz.variants import Variant, expected_time
 
-__all__ = ["TRANSFORMATIONS", "Feature", "Image", "Side", "move_alike", "untouched"]
+__all__ = ["TRANSFORMATIONS", "Feature", "Image", "Mirror", "Side", "move_alike", "untouched"]
+
+Interval: TypeAlias = tuple[AlgebraicNumber, AlgebraicNumber]
 
 SHARES: Final = (QQ(1, 2), QQ(1, 4), QQ(3, 4))
 """Where edges are subdivided. The new vertices of bodies of doubles are doubles."""
@@ -34,6 +37,55 @@ class Feature(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Mirror:
+    """A reflection of the plane, or of time, or none: each undoes itself.
+
+    Attributes:
+        signs: of x and of y.
+        swaps_axes: whether x and y change places.
+        turning: the sum of a time and its image; None if time goes on as it did.
+    """
+
+    signs: tuple[int, int] = (1, 1)
+    swaps_axes: bool = False
+    turning: QQ | None = None
+
+    @property
+    def is_orientation_kept(self) -> bool:
+        """False if a ring counter-clockwise becomes one clockwise."""
+        return self.signs[0] * self.signs[1] * (-1 if self.swaps_axes else 1) > 0
+
+    def point(self, p: Sequence[Any]) -> tuple[Any, Any]:
+        """Return the image of a point, or of a direction."""
+        x, y = self.signs[0] * p[0], self.signs[1] * p[1]
+        return (y, x) if self.swaps_axes else (x, y)
+
+    def time(self, t: QQ) -> QQ:
+        """Return the image of a rational time."""
+        return t if self.turning is None else self.turning - t
+
+    def interval(self, start: AlgebraicNumber, end: AlgebraicNumber) -> Interval:
+        """Return the image of an interval."""
+        if self.turning is None:
+            return start, end
+        return expected_time(self.variant, end), expected_time(self.variant, start)
+
+    @property
+    def variant(self) -> Variant:
+        """The map of scenes."""
+        p, q = QQ(self.signs[0]), QQ(self.signs[1])
+        matrix = ((p, QQ(0)), (QQ(0), q))
+        if self.swaps_axes:
+            matrix = ((QQ(0), q), (p, QQ(0)))
+        if self.turning is None:
+            return Variant(matrix=matrix)
+        return Variant(matrix=matrix, rate=QQ(-1), delay=self.turning)
+
+
+UNCHANGED: Final = Mirror()
+
+
+@dataclass(frozen=True)
 class Side:
     """A scene, and what its numbers and names stand for.
 
@@ -42,6 +94,7 @@ class Side:
         vertices, edges: the old feature of each vertex and each edge, by body and number.
         groups: for each name the common name of all bodies that are one body in the old or in
             the new scene.
+        mirror: what the plane and time of the old scene look like in this one.
         spaces: the free space at the start by each tiling that has been used.
     """
 
@@ -49,6 +102,7 @@ class Side:
     vertices: Mapping[tuple[str, int], Feature]
     edges: Mapping[tuple[str, int], Feature]
     groups: Mapping[str, str]
+    mirror: Mirror = UNCHANGED
     spaces: dict[str, FreeSpace] = field(default_factory=dict, compare=False)
 
     def members(self, group: str) -> list[str]:
@@ -233,6 +287,25 @@ def _separated(scene: Scene, random: Random) -> Image | None:
     return Image(untouched(scene, groups), _side(bodies, rings, scene, groups))
 
 
+def _mirrored(scene: Scene, random: Random) -> Image:
+    """Reflect the plane: at an axis, at both, or at the diagonal."""
+    mirror = random.choice(
+        [Mirror((-1, 1)), Mirror((1, -1)), Mirror((-1, -1)), Mirror((1, 1), swaps_axes=True)]
+    )
+    return _in_mirror(scene, mirror)
+
+
+def _backwards(scene: Scene, random: Random) -> Image:  # noqa: ARG001
+    """Let time run from the end to the start."""
+    return _in_mirror(scene, Mirror(turning=scene._start + scene._end))
+
+
+def _in_mirror(scene: Scene, mirror: Mirror) -> Image:
+    old = untouched(scene)
+    new = mirror.variant.scene(scene)
+    return Image(old, Side(new, old.vertices, old.edges, old.groups, mirror))
+
+
 def _allowed(make: Callable[[Scene, Random], Image | None]) -> Callable[..., Image | None]:
     """Return a transformation that gives None if no scene can hold the result."""
 
@@ -245,6 +318,18 @@ def _allowed(make: Callable[[Scene, Random], Image | None]) -> Callable[..., Ima
     return image
 
 
+def _plain(make: Callable[[Scene, Random], Image]) -> Callable[..., Image | None]:
+    """Return a transformation that gives None if bodies move on arcs: no variant turns these."""
+
+    def image(scene: Scene, random: Random) -> Image | None:
+        try:
+            return make(scene, random)
+        except TypeError:
+            return None
+
+    return image
+
+
 TRANSFORMATIONS: Final[Mapping[str, Callable[[Scene, Random], Image | None]]] = {
     "subdivided": _each(_subdivided),
     "renumbered": _each(_renumbered),
@@ -252,5 +337,7 @@ TRANSFORMATIONS: Final[Mapping[str, Callable[[Scene, Random], Image | None]]] = 
     "permuted": _permuted,
     "joined": _allowed(_joined),
     "separated": _allowed(_separated),
+    "mirrored": _plain(_mirrored),
+    "backwards": _plain(_backwards),
 }
 """The transformations by name; each returns None where it does not apply."""

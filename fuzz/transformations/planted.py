@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 from typing import Any, Final
 from unittest.mock import patch
 
+import exactpt
 from exactpt import Body, Contact
 from fuzz.transformations.run import Fault, check
 
@@ -51,6 +52,17 @@ def _first_overlap() -> AbstractContextManager[object]:
     return patch.object(Contact, "__init__", wrong)
 
 
+def _without_the_first_interval() -> AbstractContextManager[object]:
+    """Return a context in which the first interval of several is lost."""
+    right = exactpt.contact_intervals
+
+    def wrong(*args: Any) -> Any:
+        found = right(*args)
+        return found[1:] if len(found) > 1 else found
+
+    return patch.object(exactpt, "contact_intervals", wrong)
+
+
 def _in_one_direction(body: Body, edges: Edges) -> Edges:
     """Leave out edges that go to the left: those of another ring order stay."""
     place = [tuple(f.coefficients[0] if f.coefficients else 0 for f in v) for v in body.vertices]
@@ -64,11 +76,14 @@ PLANTED: Final[dict[str, Callable[[], AbstractContextManager[object]]]] = {
     "permuted": _first_overlap,
     "joined": lambda: _edges(_of_first_part),
     "separated": lambda: _edges(_of_first_part),
+    "mirrored": lambda: _edges(_in_one_direction),
+    "backwards": _without_the_first_interval,
 }
 """By transformation: a function that returns a context in which the fault is made.
 
 Edges before a straight angle are lost; the edge that closes a ring; edges to the left; all overlaps
-but the first; edges of all parts but the first.
+but the first; edges of all parts but the first; edges to the left again; the first of the intervals
+in which two bodies touch.
 """
 
 

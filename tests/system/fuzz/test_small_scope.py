@@ -451,7 +451,7 @@ def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
 )
 def test_a_planted_bug_is_found_in_a_few_scenes(bug):
     assert wrong(range(60)) == 0
-    with PLANTED[bug]():
+    with PLANTED[bug].made():
         assert wrong(range(60)) > 0
 
 
@@ -459,7 +459,7 @@ def test_a_planted_bug_is_found_in_a_few_scenes(bug):
 def test_a_fault_is_printed_shrunk_and_saved(tmp_path, monkeypatch):
     monkeypatch.setattr(corpus, "FOLDER", tmp_path)
 
-    with PLANTED["vertex on vertex ignored"]():
+    with PLANTED["vertex on vertex ignored"].made():
         done = CliRunner().invoke(small_scope, ["--count", "20", "--shrink", "2", "--jobs", "0"])
 
     assert done.exit_code == 1
@@ -510,7 +510,7 @@ def test_the_command_is_one_of_the_fuzzer():
 @pytest.mark.plain
 def test_even_zeros_of_copies_are_needed():
     """The fault that the scope was made for: scene 627 is the first that shows it."""
-    with PLANTED["even zeros of copies ignored"]():
+    with PLANTED["even zeros of copies ignored"].made():
         answers = look(planned(627)).answers
 
     assert [answer.method for answer in answers if answer.fault] == ["lazy"]

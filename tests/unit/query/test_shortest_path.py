@@ -5,14 +5,14 @@ from fractions import Fraction
 from itertools import islice, permutations
 from random import Random
 
-import brute
 import pytest
-from visibility_graph import VisibilityGraph, length_of
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, UnreachableError
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, RINGS
 from exactpt.tiling.start import start_tiling
+from fuzz.questions import brute
+from fuzz.questions.visibility_graph import VisibilityGraph, length_of
 from fuzz.transformations.run import scene_of
 from tests.unit.query.test_space import check_taut, some_point, spaces
 

@@ -4,7 +4,6 @@ from collections import Counter
 from itertools import pairwise
 from random import Random
 
-import brute
 import pytest
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation
@@ -14,6 +13,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, RINGS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import start_tiling
+from fuzz.questions import brute
 
 
 def spaces(family, seeds, tiling="auto"):

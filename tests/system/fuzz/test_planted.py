@@ -1,0 +1,230 @@
+"""Planted mistakes: each is made, undone and hunted; families and questions for those that escaped.
+
+The sixteen mistakes of strangers escaped in part, since no scene had awkward numbers, no law knew
+the last double, and only some questions were asked.
+"""
+
+import math
+from fractions import Fraction
+from random import Random
+from unittest.mock import patch
+
+import pytest
+
+from exactpt import (
+    Body,
+    BudgetExceeded,
+    Pieces,
+    Scene,
+    Translation,
+    clearance,
+    first_contact,
+)
+from exactpt.kernel.numbers import QQ
+from exactpt.pairs import boxes
+from exactpt.scene.generate import FAMILIES, generate
+from fuzz.awkward import SUFFIX, awkward, awkward_variant
+from fuzz.planted import PLANTED, Found, _edited, hunt, table
+from fuzz.questions.all_pairs import first_contact_allpairs
+from fuzz.questions.budgets import _Clock
+from fuzz.subscene import scene_of
+from fuzz.variants import VARIANTS, difference, expected_time
+
+pytestmark = pytest.mark.plain
+
+QUICKLY_FOUND = (
+    "single times left out",
+    "times before 0 forgotten",
+    "places at the start off by less",
+    "an isolated angle across not certified, mirrored",
+    "walls in line block the way",
+    "hits at the goal missed",
+    "rounded constants taken for exact",
+    "no contact for a double too long",
+    "a loop that does not look at the clock",
+    "numbers packed for another width",
+)
+
+
+@pytest.mark.parametrize("bug", QUICKLY_FOUND)
+def test_mistake_of_a_stranger_is_found_where_it_is_hunted(bug):
+    found = hunt(bug, 60)
+
+    assert found.failure is not None
+    assert (
+        found.place.startswith(PLANTED[bug].hunted.removesuffix("families")) or "/" in found.place
+    )
+
+
+@pytest.mark.parametrize("bug", PLANTED)
+def test_mistake_is_made_and_undone(bug):
+    """Each text that is replaced is still there, once; afterwards the function is as it was."""
+    scene = generate("row", 2)
+    before = first_contact(scene).to_json()
+
+    with PLANTED[bug].made():
+        pass
+
+    assert first_contact(scene).to_json() == before
+    assert PLANTED[bug].kind.endswith(".")
+
+
+def test_edited_function_is_wrong_for_those_who_imported_it_too():
+    """`scene_pieces` has `radius_above` by name: a patch of the module would not reach it."""
+    from exactpt.pairs import scene_pieces
+
+    body = Body("disc", [(0, 0)], radius="1/3")
+    with _edited(boxes, "radius_above", "enclosing_floats(body._radius)[1]", "7.0"):
+        assert scene_pieces.radius_above(body) == 7.0
+    assert 1 / 3 <= scene_pieces.radius_above(body) < 0.34
+
+
+def test_masked_mistake_that_is_not_found_is_as_expected():
+    masked = [bug for bug, mistake in PLANTED.items() if mistake.masked]
+
+    assert masked == [
+        "a radius rounded down", "the order of copies swapped", "the rounding of a square forgotten"
+    ]  # fmt: skip
+    for bug in masked:
+        found = Found(bug, None, "", 9, 1.0)
+        assert found.is_as_expected
+        assert table([found])[1].endswith("  masked")
+    assert not Found("times before 0 forgotten", None, "", 9, 1.0).is_as_expected
+
+
+# What a test by hand shows best. The right values are derived in each docstring.
+
+
+def pairs_that_meet_before_0(time):
+    """Six pairs of points; those of one pair are in one place at one time, the others never.
+
+    a = (t / 3, t / 7), b = a + (t - time) (1/7, 1/9) / 10^9: the difference is 0 at that time only.
+    The points of the other pairs are 9 apart in x, and their difference moves by less than 1.
+    """
+    bodies = []
+    for k in range(6):
+        u, v = Fraction(1, 7 * 10**9), Fraction(1, 9 * 10**9)
+        x, y = (0 if k == 0 else 9) - u * time, 40 * k - v * time
+        bodies.append(Body(f"a{k}", [(0, 40 * k)], Translation([0, "1/3"], [0, "1/7"])))
+        motion = Translation([0, Fraction(1, 3) + u], [0, Fraction(1, 7) + v])
+        bodies.append(Body(f"b{k}", [(x, y)], motion))
+    return Scene(bodies, (-(10**9), 0))
+
+
+def test_first_contact_long_before_0_of_equal_velocities_in_thirds_is_found():
+    """At t = -10^9 + 10^6 the only two points meet; velocities are off by U / 3 times 10^9."""
+    time = -(10**9) + 10**6
+    scene = pairs_that_meet_before_0(time)
+
+    assert first_contact(scene, method="pairs").time == time
+    with PLANTED["times before 0 forgotten"].made():
+        assert first_contact(scene, method="pairs") is None
+
+
+def test_below_the_least_distance_is_a_single_time():
+    """A point passes the origin along y = 1: it is at the distance 1 at t = 2 only, x = t - 2."""
+    bodies = [Body("o", [(0, 0)]), Body("p", [(-2, 1)], Translation([0, 1]))]
+    gap = clearance(Scene(bodies, (0, 4)), "o", "p")
+
+    assert [(i.start, i.end) for i in gap.below(1)] == [(2, 2)]
+    with PLANTED["single times left out"].made():
+        assert gap.below(1) == ()
+
+
+def relay_of_three():
+    """Boxes in cells: the first touches its wall at t = 1/3, when the others turn back.
+
+    A tip at x = -u (1/3 - t) is at the wall x = 0 at t = 1/3 in the first cell, and 1/100 before it
+    in the others, where the triangle of the wall leaves room; from 1/3 on all of them go back.
+    """
+    bodies, time = [], Fraction(1, 3)
+    for k in range(7):
+        y, gap = 10 * k, 0 if k == 0 else Fraction(1, 100)
+        bodies.append(Body(f"wall{k}", [(0, y), (1, y + 2), (0, y + 4), (2, y + 4), (2, y)]))
+        x = 1 - gap - time
+        there, back = Translation([0, 1]), Translation([2 * time, -1])
+        shape = [(x, y + 2), (x - 1, y + 2 + Fraction(1, 8)), (x - 1, y + 2 - Fraction(1, 8))]
+        bodies.append(Body(f"box{k}", shape, Pieces([(time, there), (None, back)])))
+    return Scene(bodies, (0, 1))
+
+
+def reached_at_each_look(scene):
+    """What a search has reached, if its time is over at its first, second, ... look."""
+    whole = _Clock()
+    with patch("time.monotonic", whole.monotonic):
+        first_contact(scene, method="pairs", max_seconds=1.0)
+    for look in range(1, whole.looks + 1):
+        struck = _Clock(look)
+        with patch("time.monotonic", struck.monotonic):
+            try:
+                first_contact(scene, method="pairs", max_seconds=1.0)
+            except BudgetExceeded as spent:
+                yield spent.reached
+
+
+def test_search_that_is_ended_at_any_look_has_reached_less_than_the_contact():
+    """The contact is at 1/3; the double below it is the last that may be reached."""
+    reached = {r for r in reached_at_each_look(relay_of_three()) if r is not None}
+
+    assert reached
+    assert max(reached) < Fraction(1, 3)
+    with PLANTED["no contact for a double too long"].made():
+        wrong = {r for r in reached_at_each_look(relay_of_three()) if r is not None}
+    assert max(wrong) == Fraction(math.nextafter(1 / 3, 1)) > Fraction(1, 3)
+
+
+@pytest.mark.parametrize("radius", ["1/3", "1/7", str(10**400), f"1/{10**400}", "5/13"])
+def test_radius_rounded_down_excludes_no_pair(radius):
+    """See `fuzz.planted`: the margins of boxes contain what is missing, so no answer changes."""
+    bodies = [
+        Body(f"b{k}", [(10 * k, 0)], Translation([0, Fraction(k, 9)], [0, "1/3"]), radius=radius)
+        for k in range(12)
+    ]
+    scene = Scene(bodies, (-90, 90))
+    right = first_contact(scene, method="pairs")
+
+    with PLANTED["a radius rounded down"].made():
+        again = first_contact(scene, method="pairs")
+
+    assert (again and again.to_json()) == (right and right.to_json())
+
+
+# Awkward images
+
+
+def test_awkward_number_of_a_scene_is_no_double():
+    scene = awkward(generate("convex", 1), Random(3))
+
+    numbers = [c for body in scene.bodies for v in body.at(scene.start) for c in v]
+    assert sum(QQ(float(c)) == c for c in numbers) < len(numbers) / 10
+
+
+def test_awkward_scene_of_a_family_is_named_and_repeated():
+    name = f"turning{SUFFIX}"
+
+    first, again, plain = scene_of(name, 5), scene_of(name, 5), scene_of("turning", 5)
+    assert first == again
+    assert first != plain
+    assert len(first.bodies) == len(plain.bodies)
+
+
+@pytest.mark.parametrize("family", [*FAMILIES][::4])
+def test_contact_of_an_awkward_image_is_the_image_of_the_contact(family):
+    variant = awkward_variant(Random(family))
+    scene = scene_of(family, 2)
+    image = variant.scene(scene)
+
+    found = first_contact_allpairs(image)
+    assert difference(variant, scene, first_contact(scene), found) is None
+
+
+def test_expected_time_of_a_reversed_time_is_enclosed():
+    """The time sqrt(2) of t^2 = 2 is at 3 - sqrt(2) = 1.5857... in the image: t' = 3 - t."""
+    wall = Body("wall", [(0, 0), (0, 9)], closed=False)
+    point = Body("p", [(-2, 1)], Translation([0, 0, 1]))
+    time = first_contact(Scene([wall, point], (0, 3))).time
+    backwards = VARIANTS["backwards"]
+
+    image = expected_time(backwards, time)
+
+    assert float(image) == -math.sqrt(2)
