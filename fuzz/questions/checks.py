@@ -42,6 +42,7 @@ from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
 from fuzz.questions.free_space import wrong_path, wrong_place
+from fuzz.questions.in_arrays import wrong_in_arrays
 from fuzz.questions.moving import wrong_clearance
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
@@ -410,6 +411,11 @@ def _batch(random: Random) -> Checked:
     return Checked(*wrong_in_batch(random))
 
 
+def _arrays(random: Random) -> Checked:
+    """Pairs of rounded bodies in arrays of doubles, and each by itself."""
+    return Checked(*wrong_in_arrays(random))
+
+
 def _places(random: Random) -> Checked:
     """Places, rays and free segments."""
     return Checked(*wrong_place(random))
@@ -442,6 +448,7 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "paths": _paths,
     "budgets": _budgets,
     "batch": _batch,
+    "arrays": _arrays,
     "after-start": _after_start,
     "rounded": _rounded,
     "touching-rings": _touching_rings,

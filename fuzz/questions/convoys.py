@@ -48,23 +48,26 @@ def convoy(random: Random) -> Scene:
     """Return pairs of bodies far from each other, of which some meet in corners, once.
 
     The corners of two bodies are in one place at a time near one end of the span, and they pass
-    each other: bounds of that time are the narrower the larger the relative velocity.
+    each other: bounds of that time are the narrower the larger the relative velocity. Some are
+    rounded, and touch where the sum of two radii is their distance in one coordinate.
     """
     length = random.choice(LONG)
     start = random.choice([-length, -length, 0, -length // 2])
     time = start + length * random.choice([QQ(1, 10**4), QQ(1, 7), 1 - QQ(1, 10**4)])
     common = awkward_number(random, 3), awkward_number(random, 3)
+    is_rounded = random.random() < 0.3
     bodies: list[Body] = []
     for k in range(PAIRS):
         x, y = 40 * k * random.choice([1, -1]), 40 * k
         meets = random.random() < 0.3
-        for name in "ab":
+        radii = [abs(awkward_number(random, 2)) if is_rounded else 0 for _ in "ab"]
+        for name, radius in zip("ab", radii, strict=True):
             slow = [awkward_number(random, 2) / length for _ in "xy"]
             shift = [(x, y)[i] - slow[i] * time for i in (0, 1)]
-            if name == "b" and not meets:
-                shift[0] += 9
+            if name == "b":
+                shift[0] += sum(radii) if meets else sum(radii) + 9
             sign = 1 if name == "a" else -1
             shape = [(sign * p, sign * q) for p, q in random.choice(SHAPES)]
             motion = Translation([shift[0], common[0] + slow[0]], [shift[1], common[1] + slow[1]])
-            bodies.append(Body(f"{name}{k}", shape, motion))
+            bodies.append(Body(f"{name}{k}", shape, motion, radius=radius))
     return Scene(bodies, (start, start + length))

@@ -6,14 +6,14 @@ from random import Random
 import pytest
 from click.testing import CliRunner
 
-from exactpt import Body, Scene
+from exactpt import AlgebraicNumber, Body, Scene
 from exactpt.kernel import filters
 from exactpt.kernel.numbers import QQ
 from fuzz.campaign import Progress
 from fuzz.transformations import run
 from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.command import Transformations, transformations
-from fuzz.transformations.images import TRANSFORMATIONS, move_alike
+from fuzz.transformations.images import TRANSFORMATIONS, Mirror, move_alike
 from fuzz.transformations.planted import PLANTED, hunt
 from fuzz.transformations.run import SCENES, check, scene_of
 
@@ -75,7 +75,10 @@ def test_every_transformation_has_a_planted_fault():
 
 @pytest.mark.parametrize("name", TRANSFORMATIONS)
 def test_features_are_where_the_old_ones_are(name):
-    """A new vertex is an old one or on an old edge; a new edge is in an old one."""
+    """A new vertex is an old one or on an old edge; a new edge is in an old one.
+
+    Seen in the mirror, if the image is one.
+    """
     seen = 0
     for number in range(60):
         scene = scene_of(Random(number))
@@ -84,8 +87,9 @@ def test_features_are_where_the_old_ones_are(name):
             continue
         t = (2 * scene._start + scene._end) / 3
         old = {body.name: (body, body._at(t)) for body in image.old.scene.bodies}
+        mirror = image.new.mirror
         for body in image.new.scene.bodies:
-            places = body._at(t)
+            places = [mirror.point(place) for place in body._at(mirror.time(t))]
             for i, place in enumerate(places):
                 seen += 1
                 assert is_on(place, image.new.vertices[body.name, i], old)
@@ -95,6 +99,31 @@ def test_features_are_where_the_old_ones_are(name):
                 assert is_on(places[i], feature, old)
                 assert is_on(places[j], feature, old)
     assert seen > 20
+
+
+@pytest.mark.parametrize(
+    "mirror, point, image, kept",
+    [
+        (Mirror(), (2, 5), (2, 5), True),
+        (Mirror((-1, 1)), (2, 5), (-2, 5), False),
+        (Mirror((-1, -1)), (2, 5), (-2, -5), True),
+        (Mirror((1, 1), swaps_axes=True), (2, 5), (5, 2), False),
+    ],
+)
+def test_mirror_of_a_point_is_itself_after_two_times(mirror, point, image, kept):
+    assert mirror.point(point) == image
+    assert mirror.point(image) == point
+    assert mirror.is_orientation_kept is kept
+    scene = Scene([Body("p", [point])], (0, 1))
+    assert mirror.variant.scene(scene).body("p").at(0) == [image]
+
+
+def test_mirror_of_time_turns_an_interval_around():
+    """t' = 10 - t: from 2 to 5 becomes from 5 to 8."""
+    mirror = Mirror(turning=QQ(10))
+
+    assert mirror.time(QQ(2)) == 8
+    assert mirror.interval(AlgebraicNumber(2), AlgebraicNumber(5)) == (5, 8)
 
 
 def is_on(place, feature, old):
