@@ -20,7 +20,7 @@ from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tel
 from fuzz.limits import TimeIsUp, TooSlow, limit, patience_of, signed
 from fuzz.questions.command import KEPT, ask
 from fuzz.subscene import scene_of
-from fuzz.witnesses import WITNESSES, Difference, LeftOutError
+from fuzz.witnesses import OLD, WITNESSES, Difference, LeftOutError
 
 __all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "shrunk"]
 
@@ -30,6 +30,9 @@ QUESTION: Final = "questions/"
 
 LEFT_OUT: Final = "left out"
 """The column of the numbers of scenes about which a witness could say nothing."""
+
+WHILE_ANOTHER_WORKS: Final = 4.0
+"""Factor of the patience with a witness that waits for another process, on a busy machine."""
 
 USUAL: Final = 8
 SEVERAL: Final = {
@@ -168,8 +171,8 @@ def run_case(
         nothing = Scene([], (0, 1))
         return Result(counts, [_failure("generator", "InputError", str(error), nothing).of(case)])
     found: list[Finding] = []
-    most = patience_of(scene)
     for name in witnesses:
+        most = patience_of(scene) * (WHILE_ANOTHER_WORKS if name == OLD else 1.0)
         tell(Step(most, _failure(name, HANGS, name, scene).of(case)))
         began = clock.perf_counter()
         try:
