@@ -86,9 +86,11 @@ old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of th
 	$(BIN)/python -m fuzz.old_engine
 
 night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, planted mistakes
-	$(BIN)/python -m fuzz --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS)
-	$(BIN)/python -m fuzz --witness old --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS)
-	$(BIN)/python -m fuzz planted
+	status=0; for what in '' '--witness old'; do \
+	    $(BIN)/python -m fuzz $$what --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
+	done; \
+	$(BIN)/python -m fuzz planted || status=1; \
+	exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered

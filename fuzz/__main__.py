@@ -82,10 +82,12 @@ def fuzz(
       python -m fuzz soak 60
     """
     names = (*families, *more)
-    if witnesses != (OLD,) and (turning := [name for name in names if name in SPINNING]):
-        raise click.UsageError(f"{turning[0]}: bodies that spin are for --witness old alone")
+    turning = [name for name in names if name in SPINNING]
+    if turning and (is_awkward or thin or witnesses != (OLD,)):
+        why = "bodies that spin are for --witness old alone, as they are"
+        raise click.UsageError(f"{turning[0]}: {why}")
     if not names and witnesses == (OLD,):
-        names = EVERY_FAMILY
+        names = FAMILIES if is_awkward or thin else EVERY_FAMILY
     elif not names:
         names = FAMILIES if thin or is_awkward or witnesses else MIXED
     if thin:
