@@ -39,6 +39,8 @@ from exactpt.kernel.rounding import LARGEST, TINY, U
 FEW: Final = 20
 """Maximum number of edges of which all pairs are compared here, without numpy."""
 
+SHORT: Final = 500
+"""Number of pieces of a line of which one is found by its number faster than by its place."""
 MAX_CUTS: Final = 400_000
 """Maximum number of points, counted for each edge, in which edges are cut; about 300 MB."""
 
@@ -351,21 +353,27 @@ class _Sweep:
             beginning[piece.left].append(piece)
         self._line: list[int] = []
         """The pieces that the line crosses, from below upward."""
+        self._ending: list[list[int]] = [[] for _ in arrangement.points]
+        """For each vertex the pieces of the line that end there."""
         for vertex, pieces in enumerate(beginning):
             check_budget()
             self._pass(vertex, pieces)
 
     def _pass(self, vertex: int, beginning: list[_Piece]) -> None:
         """Replace the pieces that end at a vertex by those that begin at it."""
-        first = self._count_below(vertex)
-        last = first
-        while last < len(self._line) and self.pieces[self._line[last]].right == vertex:
-            last += 1
+        count = len(self._ending[vertex])
+        if count and len(self._line) <= SHORT:
+            first = min(map(self._line.index, self._ending[vertex]))
+        else:
+            first = self._count_below(vertex)
+        last = first + count
         ending = self._line[first:last]
         if len(beginning) > 1:
             beginning.sort(key=cmp_to_key(self._compare))
         begun = list(range(len(self.pieces), len(self.pieces) + len(beginning)))
         beneath = self._line[first - 1] if first else -1
+        for number, piece in zip(begun, beginning, strict=True):
+            self._ending[piece.right].append(number)
         self.pieces += beginning
         self.below += [beneath, *begun][: len(begun)]
         self.stars.append(begun + ending[::-1])

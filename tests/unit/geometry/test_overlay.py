@@ -161,9 +161,16 @@ def test_unchanged_rings_come_back_as_given():
     assert as_given(evenodd([second]), [second])[0].outline is second
 
 
+@pytest.mark.parametrize("size", ["few", "many"])
 @pytest.mark.parametrize("block", range(4))
-def test_random_drawings_have_the_parts_of_the_definition(block):
-    """See `fuzz.overlays`; `python -m fuzz questions --question overlay` goes on."""
+def test_random_drawings_have_the_parts_of_the_definition(monkeypatch, block, size):
+    """Once as usual, once by the ways of many edges and of long lines of a sweep.
+
+    See `fuzz.overlays`; `python -m fuzz questions --question overlay` goes on.
+    """
+    if size == "many":
+        monkeypatch.setattr(overlay, "FEW", 0)
+        monkeypatch.setattr(overlay, "SHORT", 0)
     for seed in range(40 * block, 40 * (block + 1)):
         drawing = random_drawing(Random(f"overlay {seed}"))
         assert fault_of_drawing(drawing) is None, (seed, drawing.kind)
