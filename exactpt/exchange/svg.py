@@ -24,6 +24,7 @@ from exactpt.geometry.overlay import Part, as_given, evenodd, nonzero
 from exactpt.geometry.polygon import are_collinear
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import rational, shorten
+from exactpt.kernel.rounding import U
 
 if TYPE_CHECKING:
     import svgelements
@@ -145,9 +146,17 @@ def _filled(shape: Shape, fill: FillRule) -> Iterator[Shape]:
 
 
 def _is_surely_simple(ring: Sequence[Point]) -> bool:
+    """Return True if a ring, in doubles, certainly is simple.
+
+    A drawing in physical units is scaled by a rational number, so that coordinates are rounded to
+    doubles here, by at most U times their size.
+    """
     open_ring = ring[:-1] if ring[0] == ring[-1] else ring
-    xs, ys = zip(*((float(x), float(y)) for x, y in open_ring), strict=True)
-    return len(open_ring) > 2 and is_surely_simple(xs, ys, closed=True)
+    if len(open_ring) < 3:
+        return False
+    xs, ys = ([float(p[axis]) for p in open_ring] for axis in (0, 1))
+    rounding = U * max(map(abs, [*xs, *ys]))
+    return is_surely_simple(xs, ys, closed=True, error=rounding)
 
 
 def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, str, svgelements.Path]]:
