@@ -16,15 +16,18 @@ from exactpt.scene.written import to_json
 from exactpt.tiling.start import TILINGS
 from fuzz import corpus
 from fuzz.cases import failure_of
+from fuzz.old_engine.build import is_built
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.statics import run_and_audit
 from fuzz.subscene import MOST, WHOLE, scene_of, subscene
 from fuzz.thin import SUFFIX
 from fuzz.variants import VARIANTS, difference, expected_time
-from fuzz.witnesses import WITNESSES
+from fuzz.witnesses import OLD, WITNESSES
 
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")
 QUICK = ("reference", "static", "filters")
+PRESENT = [name for name in WITNESSES if name != OLD or is_built()]
+"""All witnesses; the old engine only where it is built (`make old-engine`)."""
 
 
 @pytest.mark.parametrize("family", [*FAMILIES, *POINTS, *TOUCHING])
@@ -63,15 +66,13 @@ def test_what_is_generic_needs_no_rebuild(family, tiling):
 def test_no_witness_objects_to_more(family, program):
     for seed in range(4, 24):
         scene = scene_of(family, seed)
-        for witness in WITNESSES:
+        for witness in PRESENT:
             assert failure_of(witness, scene, seed) is None
 
 
 FILES = corpus.files()
 BY_CGAL = {"cgal", "proof"}
-MARKED = [
-    pytest.param(name, marks=pytest.mark.cgal if name in BY_CGAL else ()) for name in WITNESSES
-]
+MARKED = [pytest.param(name, marks=pytest.mark.cgal if name in BY_CGAL else ()) for name in PRESENT]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
