@@ -31,10 +31,6 @@ __all__ = ["QUESTIONS", "answer_to"]
 Arguments: TypeAlias = "Mapping[str, Any]"
 """Values that JSON can hold; numbers that are not integers are texts like "1/3"."""
 
-_HAS_NORMS: Final = "norm" in inspect.signature(exactpt.first_within).parameters
-_EUCLIDEAN: Final[dict[str, Any]] = {"norm": "euclidean"} if _HAS_NORMS else {}
-"""The keyword by which the old version measures Euclidean distances; today's has no other."""
-
 
 def _first_contact(scene: Scene, arguments: Arguments) -> object:
     """Answer by default, or with some of the options method, tiling and after_start."""
@@ -71,7 +67,10 @@ def _clearance(scene: Scene, arguments: Arguments) -> object:
 def _within(scene: Scene, arguments: Arguments) -> object:
     distance = Fraction(arguments["distance"])
     pair = arguments["a"], arguments["b"]
-    time = exactpt.first_within(scene, *pair, distance, **_EUCLIDEAN)
+    # The old version measures by another norm unless this one is named; today's has no other.
+    has_norms = "norm" in inspect.signature(exactpt.first_within).parameters
+    options: dict[str, Any] = {"norm": "euclidean"} if has_norms else {}
+    time = exactpt.first_within(scene, *pair, distance, **options)
     return None if time is None else _number(time)
 
 

@@ -154,6 +154,7 @@ CALLS = {
     "Translation": lambda w: w.motion,
     "Velocity": lambda w: exactpt.Velocity(w.unit, 1, since=w.unit),
     "certify": lambda w: exactpt.certify(w.scene),
+    "union": lambda w: exactpt.union([w.standing], name="one"),
     "clearance": lambda w: exactpt.clearance(w.scene, w.mover, w.wall).minimum,
     "contact_intervals": lambda w: exactpt.contact_intervals(w.scene, w.mover, w.wall),
     "contacts": lambda w: exactpt.contacts(w.scene),

@@ -32,6 +32,7 @@ from exactpt import (
 from exactpt.batch import Options, answers
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.stored import Stored
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.simulation.saved import tiling_from_json, tiling_to_json
 from fuzz.questions.all_pairs import first_contact_allpairs
@@ -308,7 +309,7 @@ def test_a_saved_run_of_other_bodies_is_refused():
     apart = Body("notched", SQUARE, holes=[[(4, 1), (5, 2), (3, 2)]])
     scene = scene_of()
     run = Simulation(Scene([apart, Body("point", [(20, 0)])], scene.time))
-    state = tiling_to_json(run.kinetic)
+    state = Stored(tiling_to_json(run.kinetic), "state")
     bodies = [apart, run.body("point")]
     tiling_from_json(state, bodies, QQ(9), exact_only=False)
     with pytest.raises(InputError, match="body 'notched': its rings touch at"):

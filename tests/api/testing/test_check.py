@@ -102,9 +102,10 @@ def half_wrong(question):
 def test_counterexamples_are_a_pytest_file_that_fails_until_the_function_is_mended(tmp_path):
     report = check(half_wrong, cases=4, families=["edge_to_edge"])
     text = report.pytest_file()
-    (tmp_path / "test_late.py").write_text(text.replace(half_wrong.__name__, "toi"))
-    name = half_wrong.__module__.rpartition(".")[2]
     assert f"from {half_wrong.__module__} import half_wrong as toi" in text
+    name = "tested"
+    text = text.replace(half_wrong.__module__, name).replace(half_wrong.__name__, "toi")
+    (tmp_path / "test_late.py").write_text(text)
 
     def run(body):
         (tmp_path / f"{name}.py").write_text(body)

@@ -24,7 +24,7 @@ from public_calls import CALLS, REFUSED, World
 
 import exactpt
 import exactpt.testing
-from exactpt import arrays, batch, check_apart, proof_check
+from exactpt import check_apart, proof_check
 from exactpt.cli import all_commands
 from exactpt.cli.alarm import time_limit
 from exactpt.scene.generate import generate
@@ -35,19 +35,6 @@ COMMANDS = {*all_commands(), "a command that is none"}
 WITH_WORKERS = {"batch.run", "batch.Summary", "batch", "batch --jobs"}
 TIMED = {"Simulation.max_seconds", *WITH_WORKERS}
 """Their results have addresses of objects, or seconds."""
-
-
-def test_every_public_name_is_called():
-    errors = {name for name in exactpt.__all__ if isinstance(getattr(exactpt, name), type)
-              and issubclass(getattr(exactpt, name), Exception)}  # fmt: skip
-    names = {*exactpt.__all__, "Event", "Pair", "Path"} - errors
-    names |= {f"arrays.{name}" for name in arrays.__all__ if name not in ("KINDS", "Contacts")}
-    names |= {f"batch.{name}" for name in batch.__all__}
-    constants = {"FAMILIES", "LINEAR"}
-    names |= {f"testing.{name}" for name in exactpt.testing.__all__ if name not in constants}
-    names -= {"__version__", "__compiled__"}
-
-    assert names <= CALLS.keys()
 
 
 @every("name", CALLS)
