@@ -16,6 +16,9 @@ from typing import Any, Final, final
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, ZZ, shorten
 
+LARGEST_INTEGER: Final = (1 << 63) - 1
+"""The largest integer of the compiled modules: ids, positions and counts are not above it."""
+
 _INTEGER: Final = re.compile(r"-?\d+\Z", re.ASCII)
 _RATIONAL: Final = re.compile(r"(-?\d+)(?:/(\d+))?\Z", re.ASCII)
 
@@ -138,18 +141,20 @@ class Stored:
 
     # Numbers
 
-    def integer(self, least: int, most: int | None = None) -> int:
+    def integer(self, least: int, most: int = LARGEST_INTEGER) -> int:
         """Return this integer.
 
         Raises:
             InputError: if it is not an integer in this range; a boolean is none.
         """
         value = self._data
-        if type(value) is not int or value < least or (most is not None and value > most):
+        if type(value) is not int or not least <= value <= most:
             raise self.refused(f"an integer {_range(least, most)}")
         return value
 
-    def integers(self, least: int, most: int | None = None, length: int | None = None) -> list[int]:
+    def integers(
+        self, least: int, most: int = LARGEST_INTEGER, length: int | None = None
+    ) -> list[int]:
         """Return this list of integers.
 
         Raises:
@@ -158,7 +163,7 @@ class Stored:
         self._check_list(length)
         values: list[int] = self._data
         if set(map(type, values)) <= {int} and (
-            not values or (min(values) >= least and (most is None or max(values) <= most))
+            not values or (min(values) >= least and max(values) <= most)
         ):
             return values
         return [entry.integer(least, most) for entry in self.entries()]
@@ -227,7 +232,7 @@ class Stored:
         return self._data
 
 
-def _range(least: float, most: float | None) -> str:
+def _range(least: float, most: float) -> str:
     """Return the range of a number in words."""
-    above = "" if most is None or most == math.inf else f" to {most}"
+    above = "" if most in (math.inf, LARGEST_INTEGER) else f" to {most}"
     return f"from {least}{above}"
