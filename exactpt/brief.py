@@ -20,6 +20,14 @@ _FIRST: Final = 50
 _LAST: Final = 8
 """Number of characters that are kept of the end of a value that is cut."""
 
+_PLURALS: Final = {
+    "body": "bodies",
+    "family": "families",
+    "geometry": "geometries",
+    "vertex": "vertices",
+}
+"""The plurals of nouns that do not only get an s."""
+
 
 def cut(text: str, limit: int = LONGEST) -> str:
     """Return a text with "..." instead of its middle, if it is longer than the limit.
@@ -125,13 +133,15 @@ def call_in_brief(kind: str, *values: object, **named: object) -> str:
     return _fitting((f"{kind}({', '.join(written(level))})" for level in _LEVELS), LONGEST)
 
 
-def counted(count: int, one: str, many: str = "") -> str:
-    """Return a number of things in words.
+def counted(count: int, noun: str) -> str:
+    """Return a number with its noun.
 
-    >>> counted(1, "event"), counted(2, "event"), counted(0, "body", "bodies")
-    ('1 event', '2 events', '0 bodies')
+    >>> counted(1, "event"), counted(2, "event"), counted(0, "other body")
+    ('1 event', '2 events', '0 other bodies')
     """
-    return f"{count} {one if count == 1 else many or one + 's'}"
+    *adjectives, last = noun.split(" ")
+    many = " ".join([*adjectives, _PLURALS.get(last, f"{last}s")])
+    return f"{count} {noun if count == 1 else many}"
 
 
 def _fitting(texts: Iterable[str], limit: int) -> str:

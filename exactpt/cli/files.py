@@ -158,8 +158,8 @@ def convert(
         for line in remarks:
             print_error(line)
         if is_scene:
-            bodies = counted(len(scene.bodies), "body", "bodies")
-            vertices = counted(scene.vertex_count, "vertex", "vertices")
+            bodies = counted(len(scene.bodies), "body")
+            vertices = counted(scene.vertex_count, "vertex")
             print_output(f"{bodies}, {vertices}: {target}")
     return 0
 

@@ -155,7 +155,7 @@ def demo(output: Path, *, show: bool) -> int:
     film = film_of(given, tiling="auto")
     bodies = ", ".join(body.name for body in given.bodies)
     print_output(
-        f"{counted(len(given.bodies), 'body', 'bodies')}: {bodies}",
+        f"{counted(len(given.bodies), 'body')}: {bodies}",
         *answer_in_words(given, film.contact),
     )
     write_atomically(output, page_of(film, title="exactpt demo"))

@@ -3,21 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final, final
+from typing import final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
-
-_PLURALS: Final = {"body": "bodies", "geometry": "geometries", "property": "properties"}
-
-
-def plural(count: int, noun: str) -> str:
-    """Return a number with its noun.
-
-    >>> plural(1, "body"), plural(2, "body"), plural(3, "point")
-    ('1 body', '2 bodies', '3 points')
-    """
-    return f"{count} {noun if count == 1 else _PLURALS.get(noun, f'{noun}s')}"
 
 
 @final
@@ -53,7 +43,7 @@ class Losses:
     def texts(self) -> tuple[str, ...]:
         """Return a text for each kind."""
         found = [
-            f"{what} of {plural(number, of)}" if of else what
+            f"{what} of {counted(number, of)}" if of else what
             for (what, of), number in self._counts.items()
         ]
         if self._unlocated:

@@ -389,7 +389,7 @@ def _body(path: _Path, name: str, holes: Holes) -> Body:
     first, frames = rests[0], [rest._at(path.times[0]) for rest in rests]
     for i, (frame, shape) in enumerate(zip(frames, path.shapes, strict=True)):
         if len(frame) != len(frames[0]):
-            vertices = counted(len(frame), "vertex", "vertices")
+            vertices = counted(len(frame), "vertex")
             raise InputError(f"{path.where}, position {i}: {vertices}, after {len(frames[0])}")
         if _pattern(shape) != _pattern(path.shapes[0]):
             raise InputError(

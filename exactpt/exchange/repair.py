@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.exchange.shapes import Shape, together
 from exactpt.geometry.overlay import as_given, evenodd, union
@@ -48,6 +49,5 @@ def repair_report(shape: Shape, repaired: Shape, fault: str) -> str:
 
 
 def _size(shape: Shape) -> str:
-    count = len(shape.parts)
     vertices = sum(len(ring) - (ring[0] == ring[-1]) for part in shape.parts for ring in part.rings)
-    return f"{count} polygon{'s' * (count > 1)} of {vertices} vertices"
+    return f"{counted(len(shape.parts), 'polygon')} of {counted(vertices, 'vertex')}"

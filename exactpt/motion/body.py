@@ -432,7 +432,7 @@ class Body:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
         rounded = f", radius {show(self._radius)}" if self._radius else ""
         rings = f" in {counted(len(self.rings), 'ring')}" if self.has_rings else ""
-        vertices = counted(self.size, "vertex", "vertices")
+        vertices = counted(self.size, "vertex")
         return f"<Body {in_brief(self.name, 60)}: {what} of {vertices}{rings}{rounded}>"
 
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial
@@ -115,7 +116,8 @@ class Spline(Pieces):
 
     def __repr__(self) -> str:
         span = f"from t = {show(self._until[0])} to {show(self._until[-1])}"
-        return f"<Spline {span}, {len(self._until) - 1} pieces, error {show(self._error)}>"
+        pieces = counted(len(self._until) - 1, "piece")
+        return f"<Spline {span}, {pieces}, error {show(self._error)}>"
 
 
 def spline(curve: PiecewisePolynomial) -> Spline:

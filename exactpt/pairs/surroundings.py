@@ -79,7 +79,7 @@ class Surroundings:
         self._found: dict[str, Clearance] = {}
 
     def __repr__(self) -> str:
-        others = counted(len(self.others), "other body", "other bodies")
+        others = counted(len(self.others), "other body")
         return f"<Surroundings of {shorten(self.name, 30)}: {others}>"
 
     def to(self, other: str) -> Clearance:

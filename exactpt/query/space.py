@@ -73,7 +73,7 @@ class FreeSpace:
         self.snapshot: Snapshot = snapshot(self._vertices, mesh, kinetic.name, at)
 
     def __repr__(self) -> str:
-        bodies = counted(len(self._bodies), "body", "bodies")
+        bodies = counted(len(self._bodies), "body")
         faces = counted(len(self.snapshot.faces), "face")
         return f"<FreeSpace of {bodies}, {faces}, at t = {show(self._at)}>"
 

@@ -161,7 +161,7 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
     )
     tiles: tuple[Tile, ...] = ()
     lines: tuple[Line, ...] = ()
-    note = counted(len(scene.bodies), "body", "bodies")
+    note = counted(len(scene.bodies), "body")
     if still.tiling is not None:
         colours = {shape.name: shape.colour for shape in shapes}
         tiles, lines = _tiling(still.tiling, window, colours)

@@ -186,7 +186,7 @@ def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Can
         window,
         time_in_words(film.end if contact is not None else t),
         "" if contact is None else contact_in_words(contact),
-        counted(sum(film.is_there(i, t) for i in range(len(bodies))), "body", "bodies"),
+        counted(sum(film.is_there(i, t) for i in range(len(bodies))), "body"),
         tuple(
             Tile(
                 tuple(nodes[v] for v in tile.nodes),

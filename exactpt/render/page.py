@@ -80,8 +80,8 @@ def _asset(name: str) -> str:
 def _summary(film: Film) -> str:
     scene = film.scene
     count = sum(len(step.changes) for step in film.steps)
-    bodies = counted(len(scene.bodies), "body", "bodies")
-    vertices = counted(scene.vertex_count, "vertex", "vertices")
+    bodies = counted(len(scene.bodies), "body")
+    vertices = counted(scene.vertex_count, "vertex")
     span = f"from {time_in_words(scene._start)} to {time_in_words(film.end.simplified())}"
     return f"{bodies}, {vertices}, {film.tiling} tiling, {counted(count, 'event')} {span}"
 

@@ -157,8 +157,8 @@ class BodyArrays(Sequence[Body]):
         )  # fmt: skip
 
     def __repr__(self) -> str:
-        vertices = counted(self.vertex_count, "vertex", "vertices")
-        return f"<BodyArrays: {counted(len(self), 'body', 'bodies')}, {vertices}>"
+        vertices = counted(self.vertex_count, "vertex")
+        return f"<BodyArrays: {counted(len(self), 'body')}, {vertices}>"
 
 
 def _restored(

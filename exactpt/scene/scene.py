@@ -419,8 +419,8 @@ class Scene:
         return str(extension("picture of a scene")(self))
 
     def __repr__(self) -> str:
-        bodies = counted(len(self.bodies), "body", "bodies")
-        vertices = counted(self.vertex_count, "vertex", "vertices")
+        bodies = counted(len(self.bodies), "body")
+        vertices = counted(self.vertex_count, "vertex")
         return f"<Scene: {bodies}, {vertices}, t in [{show(self._start)}, {show(self._end)}]>"
 
 

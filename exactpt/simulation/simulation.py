@@ -102,7 +102,7 @@ class Simulation:
         self._spaces = SpaceCache()
 
     def __repr__(self) -> str:
-        bodies = counted(len(self.scene.bodies), "body", "bodies")
+        bodies = counted(len(self.scene.bodies), "body")
         ended = ", at a contact" if self.contact is not None else ""
         return f"<Simulation of {bodies}, tiling {self.name}, t = {float(self.now)!r}{ended}>"
 

@@ -43,7 +43,7 @@ class Table:
 
     def __repr__(self) -> str:
         total = sum(self.total.values())
-        families = counted(len(self.rows), "family", "families")
+        families = counted(len(self.rows), "family")
         return f"<Table: {self.total['right']} of {counted(total, 'answer')} right, {families}>"
 
     def __str__(self) -> str:

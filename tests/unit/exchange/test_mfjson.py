@@ -376,6 +376,15 @@ def test_losses_of_moving_features_are_named(tmp_path, geometry, members, lost):
     assert scene.at(START + 5) == {"a": [(5, 0)]}
 
 
+def test_losses_of_two_moving_geometries_are_counted_in_the_plural(tmp_path):
+    one = feature()
+    one["temporalGeometry"] = {**one["temporalGeometry"], "velocity": 3}
+
+    scene = read(tmp_path, {"type": "FeatureCollection", "features": [one, one]})
+
+    assert scene.lost == ("velocity of 2 moving geometries",)
+
+
 def test_temporal_properties_stay_with_the_body(tmp_path):
     speeds = [{"datetimes": DATES, "speed": {"values": [1, 2.5], "interpolation": "Linear"}}]
     scene = read(tmp_path, {**feature(), "temporalProperties": speeds})
