@@ -38,6 +38,11 @@ def cut(text: str, limit: int = LONGEST) -> str:
     return text if len(text) <= limit else f"{text[: limit - _LAST - 3]}...{text[-_LAST:]}"
 
 
+def cut_words(text: str) -> str:
+    """Return a text in which each word is cut, so that a long name leaves the others readable."""
+    return " ".join(map(cut, text.split(" ")))
+
+
 @final
 class _Brief(Repr):
     """A ``repr`` with few items of each collection and few characters of each other value."""

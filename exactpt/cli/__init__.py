@@ -14,7 +14,7 @@ from typing import Final
 import click
 
 import exactpt
-from exactpt.brief import cut
+from exactpt.brief import cut, cut_words
 from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.terminal import (
     drop_standard_output,
@@ -156,8 +156,7 @@ def _where_to_look(error: click.ClickException) -> str:
 
 def _cut(message: str) -> str:
     """Return a message in which each word of an argument, and the whole, is not too long."""
-    words = " ".join(map(cut, message.split(" ")))
-    return cut(words, LONGEST)
+    return cut(cut_words(message), LONGEST)
 
 
 def main(

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from exactpt.brief import cut
+from exactpt.brief import cut_words
 from exactpt.cli.options import (
     QUIET,
     RATIONAL,
@@ -158,8 +158,10 @@ class _Verdict:
 
     def lines(self) -> list[str]:
         """Return the verdict in words, in which long names are cut."""
-        said = [self.statement] + ([f"cgal_check {self.by_cgal}"] if self.by_cgal else [])
-        return [" ".join(map(cut, line.split(" "))) for line in said]
+        lines = [self.statement]
+        if self.by_cgal is not None:
+            lines.append(f"cgal_check {self.by_cgal}")
+        return list(map(cut_words, lines))
 
     def to_json(self) -> dict[str, object]:
         """Return the verdict as a JSON object, see docs/format.md."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, TypeAlias
 
 import gmpy2
 
-from exactpt.brief import in_brief
+from exactpt.brief import cut, in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.rounding import FAR
 
@@ -157,7 +157,7 @@ def shorten(text: object, limit: int = 60) -> str:
         shown = " ".join(repr(text).splitlines())
     except Exception:  # an integer has more digits than Python writes, or a caller's class fails
         return in_brief(text, limit)
-    return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
+    return cut(shown, limit)
 
 
 def show(*numbers: QQ) -> str:
