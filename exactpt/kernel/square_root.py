@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple, final
 
 from exactpt.kernel.numbers import (
     QQ,
@@ -45,18 +45,31 @@ def exact_square_root(value: QQ) -> QQ | None:
     return root if root * root == value else None
 
 
-def root_bounds(value: QQ) -> tuple[QQ, QQ]:
+@final
+class RootBounds(NamedTuple):
+    """Rational bounds of a square root; both are the root if it is rational."""
+
+    low: QQ
+    high: QQ
+
+
+def root_bounds(value: QQ) -> RootBounds:
     """Return rational bounds of the square root of a number >= 0.
 
-    Both are the root if it is rational. Else the larger bound is less than 1 + 2^-23 times the
-    smaller one.
+    If the root is irrational, the larger bound is less than 1 + 2^-23 times the smaller one.
+
+    >>> root_bounds(QQ(9, 4)).high == QQ(3, 2)
+    True
+    >>> bounds = root_bounds(QQ(2))
+    >>> bounds.low**2 < 2 < bounds.high**2
+    True
     """
     exact = exact_square_root(value)
     if exact is not None:
-        return exact, exact
+        return RootBounds(exact, exact)
     unit = power_of_two(exponent(value) // 2 - BOUND_BITS)
     units = isqrt(floor(value / (unit * unit)))
-    return QQ(units) * unit, QQ(units + 1) * unit
+    return RootBounds(QQ(units) * unit, QQ(units + 1) * unit)
 
 
 def nearest_root_less(value: QQ, less: QQ) -> float:

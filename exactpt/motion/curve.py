@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any, Final, NamedTuple, Protocol, final
+from typing import Any, Final, NamedTuple, Protocol, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import (
@@ -128,7 +128,7 @@ def closed_curve(curve: PiecewisePolynomial, columns: Sequence[str]) -> ClosedCu
     )
 
 
-Terms = tuple[tuple[QQ, ...], ...]
+Terms: TypeAlias = tuple[tuple[QQ, ...], ...]
 """The coefficients of each column of a piece, the constant one first."""
 
 
@@ -249,4 +249,4 @@ def _ulp(size: QQ) -> QQ:
 
 def _length(x: QQ, y: QQ) -> QQ:
     """Return an upper bound on the length of a vector: itself if it is rational."""
-    return root_bounds(x * x + y * y)[1]
+    return root_bounds(x * x + y * y).high

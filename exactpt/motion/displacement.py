@@ -106,7 +106,7 @@ def _unturned(motion: Motion, t: QQ) -> Translation | None:
 def _longest_arm(body: Body, turning: Pieces, start: QQ, end: QQ) -> QQ:
     """Return a bound on the distance of points of a body from the pivot of its motion."""
     pivot = next(turn._pivot for turn in turning.motions if isinstance(turn, Rigid))
-    return root_bounds(max(_squared_arms(body, pivot, start, end)))[1]
+    return root_bounds(max(_squared_arms(body, pivot, start, end))).high
 
 
 def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:

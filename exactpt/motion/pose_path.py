@@ -390,7 +390,7 @@ class PosePath(Pieces):
             x, y, _ = spans[k][2]
             if isinstance(turn, Rigid):
                 most = max(most, place_error_squared(turn, a, b, x, y))
-        return self._place_error - root_bounds(most)[0]
+        return self._place_error - root_bounds(most).low
 
     def with_place_error(self, more: Rational) -> PosePath:
         """Return the same pieces for a true path that is known less well.

@@ -54,9 +54,8 @@ def _depth_below(body: Body, points: Sequence[Point], x: Point) -> QQ | None:
     """Return a lower bound on the depth of a point in a polygon; None if it is outside."""
     if not covers(body, points, x):
         return None
-    return root_bounds(min(squared_from_segment(x, (points[i], points[j])) for i, j in body.edges))[
-        0
-    ]
+    squared = min(squared_from_segment(x, (points[i], points[j])) for i, j in body.edges)
+    return root_bounds(squared).low
 
 
 @np.errstate(all="ignore")
