@@ -170,6 +170,17 @@ def show(*numbers: QQ) -> str:
     return f"({', '.join(shorten(_short_decimal(q) or str(q))[1:-1] for q in numbers)})"
 
 
+def show_points(points: Sequence[tuple[QQ, QQ]], most: int = 3) -> str:
+    """Return points as text for a message: the first ones, and how many more there are.
+
+    >>> show_points([(QQ(k), QQ(k, 2)) for k in range(5)])
+    '(0, 0) and (1, 0.5) and (2, 1) and 2 more'
+    """
+    words = " and ".join(show(*point) for point in points[:most])
+    more = len(points) - most
+    return f"{words} and {more} more" if more > 0 else words
+
+
 def _short_decimal(value: QQ) -> str | None:
     """Return a number with at most `_MAX_DECIMALS` decimals, written so; None for another one.
 

@@ -1,11 +1,11 @@
-"""Which bodies a tiling can hold: without radius, and with rings that are disjoint."""
+"""The refusal of bodies that no tiling can hold: those with a radius, or with rings that touch."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, shorten, show
+from exactpt.kernel.numbers import shorten, show_points
 from exactpt.motion.body import Body
 
 
@@ -47,16 +47,9 @@ def refuse_touching_rings(bodies: Iterable[Body], why: str) -> None:
         touches = body._ring_touches
         if touches:
             raise InputError(
-                f"body {shorten(body.name)}: its rings touch at {points_shown(touches)} in its "
+                f"body {shorten(body.name)}: its rings touch at {show_points(touches)} in its "
                 f"rest frame: {why}"
             )
-
-
-def points_shown(points: Sequence[tuple[QQ, QQ]], most: int = 3) -> str:
-    """Return points as text for a message: the first ones, and how many more there are."""
-    words = " and ".join(show(*point) for point in points[:most])
-    more = len(points) - most
-    return f"{words} and {more} more" if more > 0 else words
 
 
 def _untileable(bodies: Iterable[Body]) -> Body | None:

@@ -22,11 +22,10 @@ from exactpt.geometry.touching_rings import (
     dividing_loop,
     ring_meetings,
 )
-from exactpt.kernel.numbers import QQ, shorten, show
+from exactpt.kernel.numbers import QQ, shorten, show, show_points
 from exactpt.motion.body import Body
 from exactpt.motion.kept_shape import loss_of_shape
 from exactpt.motion.motions import is_affine
-from exactpt.motion.tileable import points_shown
 
 
 def check_exactly(body: Body, start: QQ, end: QQ) -> None:
@@ -169,7 +168,7 @@ def _check_connected(body: Body, touches: Sequence[RingTouch]) -> None:
         if loop:
             which = f"the inside of part {k}" if len(body.parts) > 1 else "the inside"
             raise InputError(
-                f"{which} is not connected: its rings touch at {points_shown(loop)}; make each "
+                f"{which} is not connected: its rings touch at {show_points(loop)}; make each "
                 "piece of it a part of its own"
             )
 
@@ -178,6 +177,6 @@ def _check_kept_shape(body: Body, touches: Sequence[RingTouch], start: QQ, end: 
     loss = loss_of_shape(body, start, end)
     if loss is not None:
         raise InputError(
-            f"its rings touch at {points_shown([touch.point for touch in touches])}, and {loss}: "
+            f"its rings touch at {show_points([touch.point for touch in touches])}, and {loss}: "
             "rings may touch only of a body that keeps its shape"
         )
