@@ -77,7 +77,7 @@ class Scene:
         >>> corners = [(0, 0), (2, 0), (0, 2), (5, 1)]
         >>> scene = Scene.from_arrays(corners, [0, 3, 4], velocities=[(0, 0), (-1, 0)])
         >>> scene.bodies[1]
-        <Body '1': point of 1 vertices>
+        <Body '1': point of 1 vertex>
 
         Polygons and chains are validated at once, in numpy where its bounds allow it. A body,
         and the rationals of its vertices, is made on first access.
