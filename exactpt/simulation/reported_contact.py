@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exactpt.brief import counted
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
 from exactpt.pairs.contact import Contact
 from exactpt.simulation.mutable_scene import MutableScene
@@ -35,22 +33,6 @@ class ReportedContact(NamedTuple):
     def may_recur(self, mutable: MutableScene) -> bool:
         """Return True if all of its bodies still have the same motions."""
         return all(mutable.has(body) for body in self.bodies.values())
-
-
-def why_none(contact: Contact) -> str:
-    """Return the reason why a scene has no tiling at a contact, and a remedy."""
-    time = f"t = {float(contact.time)!r}"
-    if contact.kind != "initial":
-        return f"the first contact is at {time}; there is one before it, where run(until=...) stops"
-    pairs = [*contact.overlaps, *((pair.body, pair.other) for pair in contact.pairs)]
-    one, other = map(shorten, pairs[0])
-    which = f"body {one} touches itself" if one == other else f"bodies {one} and {other} touch"
-    more = len({frozenset(pair) for pair in pairs}) - 1
-    others = f" (and {counted(more, 'more pair')})" if more else ""
-    return (
-        f"{which} at the start, {time}{others}; move them apart, make one body of them "
-        "(exactpt.union), or use first_contact(ignoring=...), which keeps no tiling"
-    )
 
 
 def with_motions_of(contact: Contact, mutable: MutableScene) -> ReportedContact:

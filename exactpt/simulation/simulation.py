@@ -22,9 +22,8 @@ from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import History, Log
-from exactpt.simulation.reported_contact import why_none
 from exactpt.simulation.running import begin
-from exactpt.simulation.spaces import SpaceCache
+from exactpt.simulation.spaces import SpaceCache, why_no_tiling
 from exactpt.tiling.catalogue import AUTO
 from exactpt.tiling.report import report, rules_of
 
@@ -299,7 +298,7 @@ class Simulation:
                 now and the next event, or if the run has ended with a contact.
         """
         if self.contact is not None:
-            raise InputError(f"no tiling: {why_none(self.contact)}")
+            raise InputError(f"no tiling: {why_no_tiling(self.contact)}")
         with self._run.alone:
             self._run.check_whole()
             return self._spaces.space(self._run.mutable.kinetic, at)

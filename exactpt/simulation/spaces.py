@@ -1,16 +1,18 @@
-"""The free space at the current time of a run, or between it and the next event."""
+"""The free space and the tiling at the current time of a run, or between it and the next event."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
+from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, shorten, show
 from exactpt.pseudotriangulation.snapshot import placed_at, snapshot
 
 if TYPE_CHECKING:
     from exactpt.certificates.queue import EventTime
+    from exactpt.pairs.contact import Contact
     from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query.space import FreeSpace
     from exactpt.tiling.tiling import Tiling
@@ -85,3 +87,19 @@ def _before_next_event(kinetic: Tiling, t: QQ) -> QQ:
             f"t = {show(t)} is not between now, t = {float(kinetic.now)!r}, and the next event"
         )
     return t
+
+
+def why_no_tiling(contact: Contact) -> str:
+    """Return the reason why a scene has no tiling at a contact, and a remedy."""
+    time = f"t = {float(contact.time)!r}"
+    if contact.kind != "initial":
+        return f"the first contact is at {time}; there is one before it, where run(until=...) stops"
+    pairs = [*contact.overlaps, *((pair.body, pair.other) for pair in contact.pairs)]
+    one, other = map(shorten, pairs[0])
+    which = f"body {one} touches itself" if one == other else f"bodies {one} and {other} touch"
+    more = len({frozenset(pair) for pair in pairs}) - 1
+    others = f" (and {counted(more, 'more pair')})" if more else ""
+    return (
+        f"{which} at the start, {time}{others}; move them apart, make one body of them "
+        "(exactpt.union), or use first_contact(ignoring=...), which keeps no tiling"
+    )

@@ -6,8 +6,8 @@ from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
-from exactpt.simulation.reported_contact import why_none
 from exactpt.simulation.simulation import Simulation
+from exactpt.simulation.spaces import why_no_tiling
 from exactpt.tiling.catalogue import AUTO
 from exactpt.tiling.start import plan_tiling, tiling_for_contact
 
@@ -58,4 +58,4 @@ def _run_until(simulation: Simulation, at: QQ) -> None:
     for _ in simulation.run(at):
         pass
     if simulation.contact is not None:
-        raise TimeRangeError(f"no tiling at t = {show(at)}: {why_none(simulation.contact)}")
+        raise TimeRangeError(f"no tiling at t = {show(at)}: {why_no_tiling(simulation.contact)}")
