@@ -17,7 +17,7 @@ from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.motions import REST
-from exactpt.motion.shape import listed
+from exactpt.motion.shape import are_constant, listed
 from exactpt.scene.format import loads
 from exactpt.scene.json_values import parse_json
 from exactpt.scene.written import save
@@ -293,5 +293,5 @@ def _keeps_name(name: str, number: int, kind: Format) -> bool:
 
 def _moves(body: Body) -> bool:
     """Return True if a body has a motion, or changes its shape."""
-    deforms = any(len(f._coefficients) > 1 for vertex in body.vertices for f in vertex)
-    return body.motion != REST or bool(body.keyframes) or deforms
+    deforms = bool(body.keyframes) or not are_constant(body.vertices)
+    return body.motion != REST or deforms

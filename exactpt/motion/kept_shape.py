@@ -10,6 +10,7 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Rigid, SimpleMotion, Translation
 from exactpt.motion.outline import pieces_of
+from exactpt.motion.shape import are_constant
 
 
 def loss_of_shape(body: Body, start: QQ, end: QQ) -> str | None:
@@ -31,7 +32,7 @@ def loss_of_shape(body: Body, start: QQ, end: QQ) -> str | None:
         start: the start of the span.
         end: the end of the span.
     """
-    if not body.vertices or any(f.degree > 0 for vertex in body.vertices for f in vertex):
+    if not body.vertices or not are_constant(body.vertices):
         return "its vertices move by polynomials of their own"
     pieces = pieces_of(body.motion)
     ends = [start, *(end if until is None else until for _, until in pieces)]

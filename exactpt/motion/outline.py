@@ -12,6 +12,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import FAR, TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
+from exactpt.motion.shape import are_constant
 
 
 class Outline(NamedTuple):
@@ -42,10 +43,9 @@ def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
 def is_rigid(body: Body) -> bool:
     """Return True if a body surely keeps its shape: it does not deform, and translates or turns."""
     motions = (motion for motion, _ in pieces_of(body.motion))
-    at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)
     return (
         bool(body.vertices)
-        and at_rest
+        and are_constant(body.vertices)
         and all(isinstance(m, (Translation, Rigid)) for m in motions)
     )
 

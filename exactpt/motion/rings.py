@@ -9,7 +9,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.touching_rings import ring_meetings
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.motions import Position
-from exactpt.motion.shape import Shape, VertexLike, listed
+from exactpt.motion.shape import Shape, VertexLike, are_constant, listed
 
 Outline: TypeAlias = "Iterable[VertexLike]"
 """The vertices of a ring as a caller may write them."""
@@ -104,7 +104,7 @@ def rest_touches(
     vertices: Sequence[Position], edges: Sequence[tuple[int, int]], rings: Sequence[range]
 ) -> tuple[tuple[QQ, QQ], ...]:
     """Return the points in which rings with these vertices touch; none if the vertices deform."""
-    if any(f.degree > 0 for vertex in vertices for f in vertex):
+    if not are_constant(vertices):
         return ()
     points = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in vertices]
     return tuple(touch.point for touch in ring_meetings(points, edges, rings).touches)

@@ -178,6 +178,18 @@ def _given(vertex: Position) -> tuple[object, object]:
     return str(x), str(y)
 
 
+def are_constant(vertices: Sequence[Position]) -> bool:
+    """Return True if vertices keep their places in the rest frame.
+
+    >>> from exactpt import Body
+    >>> are_constant(Body("b", [(0, 0), (1, 0)]).vertices)
+    True
+    >>> are_constant(Body("b", [(0, 0), {"x": [1, 1], "y": 0}]).vertices)
+    False
+    """
+    return all(f.degree <= 0 for vertex in vertices for f in vertex)
+
+
 def listed(what: str, values: object) -> list[Any]:
     """Return the entries of an iterable that is neither a text nor a mapping.
 

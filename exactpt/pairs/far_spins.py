@@ -16,6 +16,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.shape import are_constant
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
 
@@ -42,7 +43,7 @@ def bodies_near_others(scene: Scene) -> list[int]:
 def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
     """Return corners of boxes that contain a rigid body from start to end; None if unknown."""
     motion = body.motion
-    if any(f.degree > 0 for vertex in body.vertices for f in vertex) or not body.vertices:
+    if not body.vertices or not are_constant(body.vertices):
         return None
     places = [(x._at(start), y._at(start)) for x, y in body.vertices]
     if isinstance(motion, Spin):

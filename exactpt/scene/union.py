@@ -11,7 +11,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import REST
-from exactpt.motion.shape import listed
+from exactpt.motion.shape import are_constant, listed
 from exactpt.scene.scene import Scene
 
 
@@ -92,7 +92,7 @@ def _rest_points(body: Body) -> list[Point]:
     shapes = {frame.vertices for frame in body.keyframes}
     if len(shapes) == 1:
         return [(rational(x), rational(y)) for x, y in shapes.pop()]
-    if shapes or any(f.degree > 0 for vertex in body.vertices for f in vertex):
+    if shapes or not are_constant(body.vertices):
         raise InputError(
             f"union: body {shorten(body.name)} deforms: only bodies that keep their shape can be "
             "united"
