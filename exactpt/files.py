@@ -106,8 +106,8 @@ def create(path: Path, content: bytes) -> BinaryIO:
     return file
 
 
-def open_own(path: Path, *, writable: bool) -> BinaryIO:
-    """Open a regular file that exists, at its beginning; no link is followed.
+def open_regular(path: Path, *, writable: bool) -> BinaryIO:
+    """Open a file that exists, at its beginning: a regular one, and no link to one.
 
     Raises:
         InputError: if it is a link, a folder, a pipe or a device, or cannot be opened.

@@ -11,10 +11,10 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from exactpt.batch.chunks import Answered, Record, Tally, digest_of, record_of, tally
+from exactpt.batch.chunks import DIGEST, Answered, Record, Tally, digest_of, record_of, tally
 from exactpt.batch.options import Options
 from exactpt.errors import InputError
-from exactpt.files import create, is_at, lock, open_own
+from exactpt.files import create, is_at, lock, open_regular
 from exactpt.kernel.stored import Stored
 
 VERSION: Final = 2
@@ -140,9 +140,9 @@ class Journal:
 
     def _go_on(self, opened: ExitStack) -> None:
         """Open both files, once all of their contents are known to be of this batch."""
-        with open_own(self._journal_path, writable=False) as file:
+        with open_regular(self._journal_path, writable=False) as file:
             name = self._name_in(file)
-            self._journal = opened.enter_context(open_own(self._journal_path, writable=True))
+            self._journal = opened.enter_context(open_regular(self._journal_path, writable=True))
             if not os.path.sameopenfile(file.fileno(), self._journal.fileno()):
                 raise InputError(f"{self._journal_path}: replaced by another file meanwhile")
         self._lock()
@@ -153,9 +153,9 @@ class Journal:
                 raise InputError(f"{self._part_path}: answers of the journal are missing")
             self._part = opened.enter_context(create(self._part_path, own))
         else:
-            with open_own(self._part_path, writable=False) as file:
+            with open_regular(self._part_path, writable=False) as file:
                 stop = self._check_results(file, own)
-                self._part = opened.enter_context(open_own(self._part_path, writable=True))
+                self._part = opened.enter_context(open_regular(self._part_path, writable=True))
                 if not os.path.sameopenfile(file.fileno(), self._part.fileno()):
                     raise InputError(f"{self._part_path}: replaced by another file meanwhile")
             self._part.truncate(stop)
@@ -203,12 +203,13 @@ class Journal:
         for number, line in enumerate(_lines(self._journal), 2):
             if not line.endswith(b"\n"):
                 break
-            record = self._record(line, f"{self._journal_path}: line {number}")
-            where = Stored(record._asdict(), f"{self._journal_path}: line {number}")
+            where = f"{self._journal_path}: line {number}"
+            record = self._record(line, where)
+            stored = Stored(record._asdict(), where)
             if record.at != at:
-                raise where["at"].refused(f"{at}, where the results before end")
+                raise stored["at"].refused(f"{at}, where the results before end")
             if record.start in self.records:
-                raise where["start"].refused("another chunk than those before")
+                raise stored["start"].refused("another chunk than those before")
             self.records[record.start] = record
             end, at = end + len(line), at + record.size
         self._check_order()
@@ -319,7 +320,7 @@ def _lines(file: BinaryIO) -> Iterator[bytes]:
 
 def _digest_of_next(file: BinaryIO, record: Record) -> str:
     """Return the digest of the results of a chunk, which are next in a file."""
-    digest, left = blake2b(digest_size=16), record.size
+    digest, left = blake2b(digest_size=DIGEST), record.size
     while left and (piece := file.read(min(left, LONGEST))):
         digest.update(piece)
         left -= len(piece)

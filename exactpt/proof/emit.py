@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, final
 from exactpt.collision.driver import CHANGES, Observer
 from exactpt.collision.tiling_search import TilingSearch
 from exactpt.errors import InputError
-from exactpt.files import open_own, write_atomically, writing
+from exactpt.files import open_regular, write_atomically, writing
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import searching
 from exactpt.proof.degrees import refuse_degrees
@@ -53,13 +53,13 @@ def may_write_beside(path: Path, scene: bytes) -> bool:
     place = beside(path)
     if not os.path.lexists(place):
         return True
-    with open_own(place, writable=False) as file:
+    with open_regular(place, writable=False) as file:
         known = file.read()
     if known == scene:
         return False
     digest = hashlib.sha256(known).hexdigest().encode()
     try:
-        with open_own(path, writable=False) as file:
+        with open_regular(path, writable=False) as file:
             is_own = digest in file.read(HEADER)
     except InputError:
         is_own = False

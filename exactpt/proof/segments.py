@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Final, final
 
 from exactpt.collision.driver import CHANGES, Observer
 from exactpt.errors import InputError
-from exactpt.files import create, open_own, writing
+from exactpt.files import create, open_regular, writing
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import Part, ProofRun
 from exactpt.proof.lines import Lines, header
@@ -148,7 +148,7 @@ class ProofFolder(Observer):
             create(path, f"{CHAIN}\n{line}\n".encode()).close()
         else:
             try:
-                with open_own(path, writable=True) as file:
+                with open_regular(path, writable=True) as file:
                     file.seek(0, os.SEEK_END)
                     file.write(f"{line}\n".encode())
             except OSError as error:
