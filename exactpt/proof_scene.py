@@ -1,4 +1,4 @@
-"""What both checkers read: numbers, polynomials and their roots, and the scene.
+"""The reader of both checkers: numbers, polynomials and their roots, and the scene.
 
 Both `exactpt.proof_check`, of proofs by tilings, and `exactpt.check_apart`, of certificates, import
 this module. A checker that is handed out (`exactpt check --write-checker` and `--write-apart`) is

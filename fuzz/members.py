@@ -3,8 +3,7 @@
 A case is a valid document of a format with random small vertices, into which one member of its
 standard is put, or an unknown one. The effect that the member may have is stated beside it, from
 the standard; the places of the bodies are computed here, in rationals, without code of
-`exactpt.exchange`.
-Each scene is also written and read again: vertices keep their numbers.
+`exactpt.exchange`. Each scene is also written and read again: vertices keep their numbers.
 """
 
 from __future__ import annotations

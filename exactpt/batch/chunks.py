@@ -110,7 +110,7 @@ class Record(NamedTuple):
             length: the length of the input.
 
         Raises:
-            InputError: if a value is none that a batch writes.
+            InputError: if a batch writes no such value there.
         """
         start = data["start"].integer(0, length)
         stop = data["stop"].integer(start + 1, length)

@@ -19,7 +19,7 @@ from exactpt.scene.scene import Scene
 NOTHING: Final = Scene([])
 """A scene for which any options have a result, unless they exclude each other."""
 FIRST_ONLY: Final = ("method", "tiling", "ignoring", "after_start", "between", "exact_only")
-"""What is about the first contact alone."""
+"""The options that are about the first contact alone."""
 
 
 @final

@@ -214,7 +214,9 @@ def _dates_each(dates: Json, coordinates: Json, *, numbers: bool) -> bool:
         numbers: whether numbers are dates.
     """
     if isinstance(coordinates, list) and coordinates and isinstance(coordinates[0], Number):
-        return isinstance(dates, str) and (numbers if isinstance(dates, Number) else is_date(dates))
+        if isinstance(dates, Number):
+            return numbers
+        return isinstance(dates, str) and is_date(dates)
     return (
         isinstance(dates, list)
         and isinstance(coordinates, list)

@@ -378,9 +378,9 @@ def _place(pose: Json, at: str, losses: Losses) -> Point:
             raise InputError(f"{at}: it turns, by an angle whose cosine is not rational")
     for key in place.keys() - {"lon", "lat"}:
         losses.count(key, "position")
-    return exact_number(place.get("lon"), f"{at}: lon"), exact_number(
-        place.get("lat"), f"{at}: lat"
-    )
+    x = exact_number(place.get("lon"), f"{at}: lon")
+    y = exact_number(place.get("lat"), f"{at}: lat")
+    return x, y
 
 
 def _body(path: _Path, name: str, holes: Holes) -> Body:
@@ -409,7 +409,7 @@ def _body(path: _Path, name: str, holes: Holes) -> Body:
 
 
 def _pattern(shape: Shape) -> list[list[bool]]:
-    """For each ring, whether each point is the one before; of the first point, the last one.
+    """Return for each point of each ring True if it repeats the point before it on the ring.
 
     Repeated points count once, so that the vertices of two shapes correspond only if the patterns
     are equal.

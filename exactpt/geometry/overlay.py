@@ -45,7 +45,7 @@ MAX_CUTS: Final = 400_000
 """Maximum number of points, counted for each edge, in which edges are cut; about 300 MB."""
 
 Rule: TypeAlias = Callable[[int], bool]
-"""Whether a face with this winding number is filled."""
+"""A function that returns True if faces with a winding number are filled."""
 
 
 class Part(NamedTuple):
@@ -113,9 +113,10 @@ def union(parts: Iterable[Part]) -> list[Part]:
 
 
 def as_given(parts: Iterable[Part], rings: Iterable[Sequence[Point]]) -> list[Part]:
-    """Return the parts, those rings of them that have not changed as they were given.
+    """Return the parts with each ring that is unchanged replaced by the ring that was given.
 
-    So their vertices keep their numbers, which depend on the first vertex and on the orientation.
+    A ring is unchanged if it has the same vertices in the same cyclic order, in either direction.
+    The one that was given has its own first vertex and orientation, so vertices keep their numbers.
     """
     given: dict[tuple[Point, ...], Sequence[Point]] = {}
     for ring in rings:
@@ -404,9 +405,9 @@ class _Boundary:
     def __init__(self, arrangement: _Arrangement, sweep: _Sweep, is_filled: Rule) -> None:
         self._arrangement, self._sweep = arrangement, sweep
         self._is_bounding: list[bool] = []
-        """Whether a piece has a filled face on one side only."""
+        """For each piece of the sweep, True if it has a filled face on one side only."""
         self._goes_right: list[bool] = []
-        """Whether a piece of the boundary is followed from left to right, the filled face above."""
+        """For each piece of the boundary, True if it is followed to the right: filled above."""
         above: list[int] = []  # the winding numbers
         for piece, below in zip(sweep.pieces, sweep.below, strict=True):
             winding = above[below] if below >= 0 else 0

@@ -1,8 +1,8 @@
-"""Where the rings of a body meet at one instant: faults, and points in which rings touch.
+"""The meetings of the rings of a body at one time: faults, and points in which rings touch.
 
-Rings may touch: two of them then have single points in common and do not cross there. Whether
-the inside of a part is connected follows from these points alone (`dividing_loop`). All results
-are exact. Float boxes, rounded outward, only rule out pairs of edges.
+Two rings touch if they have single points in common and do not cross there. From these points alone
+`dividing_loop` decides whether the inside of a part is connected. All results are exact. Float
+boxes, rounded outward, only rule out pairs of edges.
 """
 
 from __future__ import annotations

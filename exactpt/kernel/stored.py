@@ -4,6 +4,8 @@ Whoever reads a file of the program's own (a saved run, the journal of a batch) 
 through one of the methods of `Stored`: it has the expected type and range, or an error names its
 place. A file may be forged, so a number that becomes an index, a count or an exponent must never be
 taken as it is.
+
+Scenes, whose numbers are decimals of any length, are read by `exactpt.scene.json_values` instead.
 """
 
 from __future__ import annotations
@@ -109,7 +111,7 @@ class Stored:
         """Return this object, whose values its reader validates.
 
         Raises:
-            InputError: if it is none.
+            InputError: if it is not an object.
         """
         if not isinstance(self._data, dict):
             raise self.refused("an object")
@@ -145,7 +147,7 @@ class Stored:
         """Return this integer.
 
         Raises:
-            InputError: if it is not an integer in this range; a boolean is none.
+            InputError: if it is not an integer in this range; a boolean is not one.
         """
         value = self._data
         if type(value) is not int or not least <= value <= most:
@@ -213,7 +215,7 @@ class Stored:
         """Return this text, one of the choices if some are given.
 
         Raises:
-            InputError: if it is none.
+            InputError: if it is not a text, or none of the choices.
         """
         if not isinstance(self._data, str):
             raise self.refused("a text")
@@ -225,7 +227,7 @@ class Stored:
         """Return this boolean.
 
         Raises:
-            InputError: if it is none.
+            InputError: if it is not true or false.
         """
         if not isinstance(self._data, bool):
             raise self.refused("true or false")

@@ -1,4 +1,7 @@
-"""Whether a body keeps its shape: at all times it is an image of one shape by a bijection."""
+"""The test that a body keeps its shape.
+
+At each time it is the image of one shape by a bijection of the plane that keeps lines straight.
+"""
 
 from __future__ import annotations
 

@@ -64,8 +64,8 @@ def certify(
     Args:
         scene: the scene.
         distance: a number >= 0; if it is not 0, the result is the first time at which two bodies
-            are within this distance. So a distance less than the least
-            one in the time span has a certificate that all stay farther apart.
+            are within this distance. So a distance less than the least one in the time span has a
+            certificate that all stay farther apart.
         at: a time, at which alone bodies are shown to be farther apart than the distance.
         between: pairs of names; other pairs do not count.
         ignoring: groups of body names; two bodies of one group do not count.

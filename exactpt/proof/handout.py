@@ -1,4 +1,4 @@
-"""Checkers as single files, which need nothing but Python: what users give to whom they convince.
+"""Checkers as single files, which need nothing but Python, for those who are to be convinced.
 
 In the package, both checkers import `exactpt.proof_scene`. A file that is handed out has the text
 of that module where the import stands. No other word is changed.

@@ -54,9 +54,8 @@ CATALOGUE: Final[dict[str, dict[str, Family]]] = {
 """Families by kind, each a function from a random generator to a scene.
 
 Convex bodies that stay convex (points and segments included); simple polygons of any shape; points
-alone; rounded bodies, which no tiling holds; bodies with holes and several parts; those whose rings
-touch, which no tiling holds; bodies that turn
-at a constant rate, by `Spin`.
+alone; rounded bodies, which no tiling holds; bodies with holes and several parts; bodies whose
+rings touch, which no tiling holds; bodies that turn at a constant rate, by `Spin`.
 """
 
 
