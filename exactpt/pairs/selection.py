@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from itertools import combinations
 from typing import TypedDict, final
 
 from exactpt.errors import InputError
@@ -54,10 +53,6 @@ class Selection:
     def is_all(self) -> bool:
         """True if every pair of bodies counts."""
         return self.named is None and self.group == list(range(len(self.group)))
-
-    def all_pairs(self) -> list[tuple[int, int]]:
-        """Return all pairs i < j that count."""
-        return self.of(combinations(range(len(self.group)), 2))
 
     def among(self, bodies: Sequence[Body]) -> _Names:
         """Return the arguments of a selection of the same pairs of some of the bodies."""
