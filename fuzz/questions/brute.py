@@ -53,7 +53,7 @@ class Rings(list[Point]):
 
 
 def points_of(scene: Scene, t: Rational) -> dict[str, list[Point]]:
-    """name -> points, at a time."""
+    """Return the points of each body at a time, by its name."""
     at = scene.at(t)
     return {b.name: _points_of(b, [(mpq(x), mpq(y)) for x, y in at[b.name]]) for b in scene.bodies}
 
@@ -65,13 +65,13 @@ def _points_of(body: Body, points: list[Point]) -> list[Point]:
 
 
 def rings_of(points: list[Point]) -> list[tuple[list[int], bool]]:
-    """(vertices, whether it is a hole) of each ring of a body."""
+    """Return the vertices of each ring of a body, and whether it is a hole."""
     parts = points.parts if isinstance(points, Rings) else [[range(len(points))]]
     return [(list(ring), k > 0) for part in parts for k, ring in enumerate(part)]
 
 
 def split_into_parts(scene: Places) -> dict[tuple[str, int], list[Point]]:
-    """(name, part) -> points of each part of each body, as a body of its own."""
+    """Return each part of each body as a body of its own, by its name and its number."""
     found = {}
     for name, points in scene.items():
         for i, part in enumerate(points.parts if isinstance(points, Rings) else [None]):
@@ -86,7 +86,7 @@ def split_into_parts(scene: Places) -> dict[tuple[str, int], list[Point]]:
 
 
 def edges_of(points: list[Point]) -> list[tuple[int, Point, Point]]:
-    """(number, a, b) of each edge; a body of one vertex has none, of two one."""
+    """Return the number and the ends of each edge: a body of two vertices has one, a point none."""
     if isinstance(points, Rings):
         return [
             (i, points[i], points[j])
@@ -99,7 +99,7 @@ def edges_of(points: list[Point]) -> list[tuple[int, Point, Point]]:
 
 
 def is_inside(p: Point, points: list[Point]) -> bool:
-    """Whether a polygon, with its holes, has a point that is on none of its edges."""
+    """Return True if a point that is on no edge of a polygon is inside of it, and in no hole."""
     turns = sum(
         winding(p, [points[i] for i in ring]) % 2 * (-1 if is_hole else 1)
         for ring, is_hole in rings_of(points)
@@ -108,14 +108,14 @@ def is_inside(p: Point, points: list[Point]) -> bool:
 
 
 def is_in_hole(p: Point, points: list[Point]) -> bool:
-    """Whether a point is in a hole of a body."""
+    """Return True if a point is in a hole of a body."""
     return any(
         is_hole and winding(p, [points[i] for i in ring]) for ring, is_hole in rings_of(points)
     )
 
 
 def winding(p: Point, points: list[Point]) -> int:
-    """How often a polygon of one ring turns around a point that is not on it."""
+    """Return how often a polygon of one ring turns around a point that is not on it."""
     total = 0
     for _, a, b in edges_of(points):
         if a[1] <= p[1] < b[1] and cross(a, b, p) > 0:
@@ -126,7 +126,7 @@ def winding(p: Point, points: list[Point]) -> int:
 
 
 def owner(p: Point, scene: Places) -> Owner | None:
-    """(body, vertex, edge) of the body that has a point, or None; scene: name -> points."""
+    """Return the body that has a point, with the vertex or edge there; None if none has it."""
     for name, points in scene.items():
         if p in points:
             return name, points.index(p), None
@@ -141,7 +141,7 @@ def owner(p: Point, scene: Places) -> Owner | None:
 def first_hit(
     origin: Point, direction: Point, scene: Places
 ) -> tuple[Any, str, int | None, int | None] | None:
-    """(parameter, body, vertex, edge) of the first point of a ray in a body, or None."""
+    """Return the parameter and the owner of the first point of a ray in a body, or None."""
     found = owner(origin, scene)
     if found is not None:
         return (0, *found)
@@ -183,7 +183,7 @@ def convex_hull(points: list[Point]) -> list[Point]:
 
 
 def crosses(p: Point, q: Point, scene: Places) -> bool:
-    """Whether the open segment from p to q goes through a body (touching is fine)."""
+    """Return True if the open segment from p to q goes through a body; touching is fine."""
     if p == q:
         return False
     d = (q[0] - p[0], q[1] - p[1])
@@ -207,7 +207,7 @@ def crosses(p: Point, q: Point, scene: Places) -> bool:
 def bends_around(
     before: Point, here: Point, after: Point, points: list[Point], vertex: int
 ) -> bool:
-    """Whether a path turns at a vertex of a body with the body on the inner side of the turn."""
+    """Return True if a path turns at a vertex with the body on the inner side of the turn."""
     turn = cross(before, here, after)
     nearby = [
         b if a == points[vertex] else a for _, a, b in edges_of(points) if points[vertex] in (a, b)
@@ -223,7 +223,7 @@ def bends_around(
 
 
 def ahead(o: Point, a: Point, p: Point) -> bool:
-    """Whether p, on the line through o and a, is on the side of a."""
+    """Return True if p, on the line through o and a, is on the side of a."""
     return bool((a[0] - o[0]) * (p[0] - o[0]) + (a[1] - o[1]) * (p[1] - o[1]) > 0)
 
 
@@ -249,7 +249,7 @@ def inner_point(points: list[Point], rng: Random) -> Point:
 def anchors_beside(
     path: Sequence[Point], scene: Mapping[Any, list[Point]], inner: Mapping[Any, Point]
 ) -> dict[Any, Point]:
-    """name -> a point of each body that a path does not pass; a body without one has none.
+    """Return a point of each body that a path does not pass, by name; some bodies have none.
 
     A taut path touches bodies, and where it runs along an open chain its points do not tell on
     which side of the chain it is: both classes have the same points there. Beside an anchor
@@ -272,7 +272,7 @@ def anchors_beside(
 
 
 def crossing_word(path: Sequence[Point], anchors: Mapping[Any, Point]) -> list[tuple[Any, int]]:
-    """How a path passes above each anchor, reduced.
+    """Return how a path passes above each anchor, reduced.
 
     It is equal for two paths with the same ends if and only if one can be deformed into the other
     in the plane without the anchors.
