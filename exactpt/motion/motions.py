@@ -230,9 +230,12 @@ class Affine(_Given):
         y: Coefficients = ZERO,
     ) -> None:
         try:
-            (a, b), (c, d) = matrix
+            first, second = matrix
+            (a, b), (c, d) = first, second
         except (TypeError, ValueError):
             raise InputError(f"an affine motion has a 2 x 2 matrix: {shorten(matrix)}") from None
+        if isinstance(first, str) or isinstance(second, str):  # "10" is no row 1, 0
+            raise InputError(f"a row of a matrix is a list: {shorten(matrix)}")
         self.matrix = ((polynomial(a), polynomial(b)), (polynomial(c), polynomial(d)))
         self.x = polynomial(x)
         self.y = polynomial(y)

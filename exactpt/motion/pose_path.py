@@ -43,6 +43,7 @@ from exactpt.motion.headings import check_headings, unwrapped
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.path_error import Pose, angle_error, place_error_squared
 from exactpt.motion.pose_pieces import DEGREE, pieces_along
+from exactpt.motion.shape import listed
 
 
 @final
@@ -134,10 +135,8 @@ class PosePath(Pieces):
         assumed_angle_error: Rational = 0,
     ) -> None:
         """Check and keep the path and its errors."""
-        if isinstance(times, str):
-            raise InputError(f"the times of a path are a list of numbers: {shorten(times)}")
-        self._times = tuple(map(rational, times))
-        self._poses = tuple(_pose(i, row) for i, row in enumerate(poses))
+        self._times = tuple(map(rational, listed("times", times)))
+        self._poses = tuple(_pose(i, row) for i, row in enumerate(listed("poses", poses)))
         self._error, self._place_error = rational(error), rational(place_error)
         self._assumed_angle_error = rational(assumed_angle_error)
         if len(self._times) != len(self._poses) + 1 or not self._poses:
@@ -452,7 +451,7 @@ def _samples(
     times: Sequence[Rational], samples: Sequence[Sequence[Rational]]
 ) -> tuple[list[QQ], list[tuple[QQ, QQ, QQ]]]:
     """Return the times and the poses of a log, checked row by row."""
-    ts, rows = list(times), list(samples)
+    ts, rows = listed("times", times), listed("samples", samples)
     if len(ts) != len(rows):
         raise InputError(
             f"a path through samples has x, y and the angle for each time: {len(ts)} times, "

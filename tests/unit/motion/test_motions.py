@@ -280,6 +280,7 @@ def test_pieces_that_are_no_sequence_are_refused(pieces, words):
         (lambda: Rigid(["x"]), "not a number: 'x'"),
         (lambda: Affine([[1, 0]]), "2 x 2 matrix"),
         (lambda: Affine([[1, 0], [0, 1, 2]]), "2 x 2 matrix"),
+        (lambda: Affine(["10", "01"]), "a row of a matrix is a list"),
         (lambda: Affine([[1, 0], [0, "y"]]), "not a number: 'y'"),
         (lambda: Translation(None), "not a polynomial"),
         (lambda: Translation([float("nan")]), "not a finite number"),

@@ -138,7 +138,7 @@ def test_neighbours_agree_exactly():
         ([2, 2], [(0, 0, 0)], {}, "times increase: 2, then 2"),
         ([0, 1], [(0, 0)], {}, "piece 0: a pose is x, y and an angle"),
         ([0, 1], ["012"], {}, "piece 0: a pose is x, y and an angle: '012'"),
-        ("01", [(0, 0, 0)], {}, "the times of a path are a list of numbers: '01'"),
+        ("01", [(0, 0, 0)], {}, "times: not a list: '01'"),
         ([0, 1], [(0, 0, 0)], {"error": 0}, "an error is positive: 0"),
         ([0, 1], [(0, 0, 0)], {"place_error": -1}, "a place_error is not negative: -1"),
         (
@@ -155,6 +155,20 @@ def test_neighbours_agree_exactly():
 def test_a_path_that_is_none_is_refused(times, poses, options, message):
     with pytest.raises(InputError, match=message):
         PosePath(times, poses, **options)
+
+
+@pytest.mark.parametrize(
+    "times, samples, message",
+    [
+        ("01", [(0, 0, 0), (1, 0, 0)], "times: not a list: '01'"),
+        ({0: 5, 1: 6}, [(0, 0, 0), (1, 0, 0)], "times: not a list: {0: 5, 1: 6}"),
+        ([0, 1], {(0, 0, 0): 0, (1, 0, 0): 1}, "samples: not a list: {"),
+        ([0, 1], ["000", "100"], "row 0: a sample is x, y and the angle: '000'"),
+    ],
+)
+def test_a_log_that_is_a_text_or_a_mapping_is_refused(times, samples, message):
+    with pytest.raises(InputError, match=message):
+        PosePath.through(times, samples)
 
 
 def test_high_degrees_are_fitted_within_the_place_error():
