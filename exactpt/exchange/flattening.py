@@ -20,6 +20,7 @@ from exactpt.exchange.lengths import (
     Box,
     Length,
     Matrix,
+    Rectangle,
     alignment_of,
     box_of,
     checked_path,
@@ -195,11 +196,11 @@ class _Flattening:
         values = self._styles.values_of(self._root, "svg")
         values.pop("overflow", None)  # outlines beyond the page count too
         box = box_of(self._root.get("viewBox"), where)
-        scale, size = _page(values, box, self._root.get("preserveAspectRatio"), where)
-        place = self._styled(values, _Place(size=size), where)
+        page = _page(values, box, self._root.get("preserveAspectRatio"), where)
+        place = self._styled(values, _Place(size=page.size), where)
         if place is not None:
             self._add_children(self._root, place)
-        return Drawing(self._flat, scale, self._matrices, self._windows)
+        return Drawing(self._flat, page.scale, self._matrices, self._windows)
 
     def _add_children(self, element: Xml.Element, place: _Place) -> None:
         for child in element:
@@ -303,14 +304,15 @@ class _Flattening:
             if rectangle is None:
                 return None
         else:
-            rectangle = (
+            rectangle = Rectangle(
                 pixels(values[1].get("x", "0"), place.whole("x"), f"{at}: x"),
                 pixels(values[1].get("y", "0"), place.whole("y"), f"{at}: y"),
                 pixels(values[1].get("width", "0"), place.whole("x"), f"{at}: width"),
                 pixels(values[1].get("height", "0"), place.whole("y"), f"{at}: height"),
             )
-        x, y, width, height = rectangle
-        return Window(f"clip-path of {where}", matrix.then(moved(x, y)), width, height)
+        corner = moved(rectangle.x, rectangle.y)
+        name = f"clip-path of {where}"
+        return Window(name, matrix.then(corner), rectangle.width, rectangle.height)
 
     def _add_first(self, element: Xml.Element, place: _Place) -> None:
         """Add the first child of a ``switch`` that needs no extension."""
@@ -480,10 +482,20 @@ def _fitted(box: Box, width: float, height: float, alignment: Alignment) -> Matr
     return Matrix(a=scale[0], d=scale[1], e=x, f=y)
 
 
-def _page(
-    values: Declarations, box: Box | None, aspect: str | None, where: str
-) -> tuple[tuple[QQ, QQ], tuple[float | None, float | None]]:
-    """Return the scale of a drawing, and width and height of its viewport.
+class _Page(NamedTuple):
+    """The page of a drawing.
+
+    Attributes:
+        scale: units of the scene for each unit of the drawing, in x and in y.
+        size: width and height of the viewport, None if they are unknown.
+    """
+
+    scale: tuple[QQ, QQ]
+    size: tuple[float | None, float | None]
+
+
+def _page(values: Declarations, box: Box | None, aspect: str | None, where: str) -> _Page:
+    """Return the page of a drawing.
 
     If a side has a physical unit, the scale is in millimetres; else a unit of the drawing is one.
     The origin stays where the drawing has it, so the alignment of its box does not matter.
@@ -503,9 +515,9 @@ def _page(
     if box is None:
         sides = {key: float(length.millimetres / PIXEL) for key, length in given.items()}
         one = PIXEL if is_physical else QQ(1)
-        return (one, one), (sides.get("width"), sides.get("height"))
+        return _Page((one, one), (sides.get("width"), sides.get("height")))
     if not is_physical:
-        return (QQ(1), QQ(1)), box.size
+        return _Page((QQ(1), QQ(1)), box.size)
     found = {
         key: given[key].millimetres / parse_rational(side)
         for key, side in (("width", box.width), ("height", box.height))
@@ -514,6 +526,6 @@ def _page(
     if not all(_SMALLEST < ratio < 1 / _SMALLEST for ratio in found.values()):
         raise InputError(f"{where}: width, height: no size for a viewBox {' '.join(box)}")
     if alignment.x is None and len(found) == 2:
-        return (found["width"], found["height"]), box.size
+        return _Page((found["width"], found["height"]), box.size)
     one = (max if alignment.slice else min)(found.values())
-    return (one, one), box.size
+    return _Page((one, one), box.size)

@@ -281,11 +281,20 @@ def checked_path(data: str, where: str) -> str:
     return data
 
 
-def rectangle_of(data: str) -> tuple[float, float, float, float] | None:
-    """Return least x and y, width and height of path data that draw an upright rectangle.
+class Rectangle(NamedTuple):
+    """An upright rectangle in pixels: its least x and y, its width and its height."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+def rectangle_of(data: str) -> Rectangle | None:
+    """Return the upright rectangle that path data draw.
 
     >>> rectangle_of("M1 2h30v4L1 6z")
-    (1.0, 2.0, 30.0, 4.0)
+    Rectangle(x=1.0, y=2.0, width=30.0, height=4.0)
     >>> rectangle_of("M1 2h30v4z") is None
     True
 
@@ -321,7 +330,7 @@ def rectangle_of(data: str) -> tuple[float, float, float, float] | None:
     turns_each_time = all((p[0] == q[0]) != (p[1] == q[1]) for p, q in pairwise(corners))
     if not (len(corners) == len(set(corners)) == 4 and len(xs) == len(ys) == 2 and turns_each_time):
         return None
-    return min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys)
+    return Rectangle(min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys))
 
 
 def checked_points(text: str, where: str) -> str:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 from xml.etree import ElementTree as Xml
 
 from exactpt.errors import ExactPTError, InputError
@@ -45,6 +45,20 @@ _MAX_POINTS: Final = 2_000_000
 """Maximum number of points of a drawing."""
 
 
+class _Outline(NamedTuple):
+    """An outline of a drawing.
+
+    Attributes:
+        name: its ``id``; empty without one.
+        fill_rule: the value of this property.
+        path: the path, in units of the drawing.
+    """
+
+    name: str
+    fill_rule: str
+    path: svgelements.Path
+
+
 def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iterator[Shape]:
     """Yield the outlines of a drawing, named by their ``id``.
 
@@ -66,15 +80,18 @@ def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iter
     left = _MAX_POINTS
     drawing = read_drawing(text, losses or Losses())
     tolerance /= float(max(drawing.scale))
-    for i, (name, fill, path) in enumerate(_paths(drawing, tolerance)):
-        where = f"outline {i}" + (f" (id {shorten(name)[1:-1]})" if name else "")
+    for i, outline in enumerate(_outlines(drawing, tolerance)):
+        where = f"outline {i}"
+        if outline.name:
+            where += f" (id {shorten(outline.name)[1:-1]})"
         try:
             subpaths = []
-            for sub in path.as_subpaths():
+            for sub in outline.path.as_subpaths():
                 points = _scaled(_points(sub, tolerance, left), drawing.scale)
                 left -= len(points)
                 subpaths.append((points, sub[-1]))
-            yield from _of_subpaths(subpaths, _fill_rule(fill), where, name or f"outline {i}")
+            fill = _fill_rule(outline.fill_rule)
+            yield from _of_subpaths(subpaths, fill, where, outline.name or f"outline {i}")
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
 
@@ -159,8 +176,8 @@ def _is_surely_simple(ring: Sequence[Point]) -> bool:
     return is_surely_simple(xs, ys, closed=True, error=rounding)
 
 
-def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, str, svgelements.Path]]:
-    """Yield the outlines of a drawing with their ids and fill rules, in its units."""
+def _outlines(drawing: Drawing, tolerance: float) -> Iterator[_Outline]:
+    """Yield the outlines of a drawing."""
     try:
         import svgelements
     except ImportError:
@@ -174,7 +191,8 @@ def _paths(drawing: Drawing, tolerance: float) -> Iterator[tuple[str, str, svgel
                 number = element.values[OUTLINE]
                 path = _mapped(svgelements.Path(element), drawing.matrices[number], tolerance)
                 _check_windows(path, drawing.windows[number])
-                yield element.id or "", element.values.get("fill-rule", "nonzero"), path
+                fill_rule = element.values.get("fill-rule", "nonzero")
+                yield _Outline(element.id or "", fill_rule, path)
     except (ExactPTError, MemoryError):
         raise
     except Exception as error:  # any error that a damaged drawing causes in the parser
