@@ -7,7 +7,7 @@ import json
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
@@ -115,8 +115,15 @@ def _begins_with(path: Path, word: bytes) -> bool:
         return file.read(len(word)) == word
 
 
-def _files_of_proof(scene: Path, proof: Path | None) -> tuple[Path, Path] | None:
-    """Return the scene's file and that of its proof or certificate; None to check a scene.
+class _ProofFiles(NamedTuple):
+    """The file of a scene, and that of its proof or certificate."""
+
+    scene: Path
+    proof: Path
+
+
+def _files_of_proof(scene: Path, proof: Path | None) -> _ProofFiles | None:
+    """Return the files of a proof or certificate; None to check a scene.
 
     A proof that is given alone has its scene beside it.
 
@@ -126,7 +133,7 @@ def _files_of_proof(scene: Path, proof: Path | None) -> tuple[Path, Path] | None
     from exactpt.proof.emit import beside
 
     if proof is not None:
-        return scene, proof
+        return _ProofFiles(scene, proof)
     is_proof = _begins_with(scene, b"exactpt-proof")
     if not is_proof and not _begins_with(scene, b"exactpt-apart"):
         return None
@@ -136,7 +143,7 @@ def _files_of_proof(scene: Path, proof: Path | None) -> tuple[Path, Path] | None
             f"{scene}: a {kind} needs its scene, and {beside(scene).name} is not beside it: "
             f"exactpt check SCENE {scene}"
         )
-    return beside(scene), scene
+    return _ProofFiles(beside(scene), scene)
 
 
 @dataclass(frozen=True)
@@ -144,7 +151,7 @@ class _Verdict:
     """The verdict of two checkers about a proof.
 
     Attributes:
-        accepted: whether both accept it.
+        accepted: True if both accept it.
         statement: the proved statement, or the reason of the rejection, by the checker in Python.
         by_cgal: the verdict of `cgal_check`: "agrees", or "DISAGREES: ..."; None if it is not
             installed.
@@ -168,43 +175,47 @@ class _Verdict:
         return {"ok": self.accepted, "statement": self.statement, "cgal_check": self.by_cgal}
 
 
-def _verdict_of_both(files: Path | tuple[Path, Path], max_seconds: float | None) -> _Verdict:
-    """Have two checkers verify the proofs in a folder, or a scene and its proof; they must agree.
+def _verdict_of_both(given: Path | _ProofFiles, max_seconds: float | None) -> _Verdict:
+    """Have two checkers verify the proofs in a folder, or a proof of a scene; they must agree.
 
     Where cgal_check is not installed, a certificate or a proof is verified by one.
     """
-    from exactpt import check_apart, proof_check
     from exactpt.cgal import check_proof, check_proofs, find_program
-    from exactpt.files import read_bytes
 
-    is_apart = isinstance(files, tuple) and _begins_with(files[1], b"exactpt-apart")
-    checker: Any = check_apart if is_apart else proof_check
-    try:
-        if isinstance(files, tuple):
-            statement = str(checker.check(*map(read_bytes, files)))
-        else:
-            statement = str(checker.check_chain(files))
-    except checker.Rejected as rejected:
-        statement = str(rejected)
-    except checker.NoProofError as refused:
-        where = files[1] if isinstance(files, tuple) else files
-        raise InputError(f"{where}: {refused}") from None
-    except checker.Exhausted as exhausted:
-        raise BudgetExceeded(str(exhausted), None) from None
+    statement = _statement_by_python(given)
     accepted = statement.startswith("accepted: ")
     try:
         find_program()
     except InputError as missing:
-        if isinstance(files, Path):
+        if isinstance(given, Path):
             raise
         return _Verdict(accepted, statement, None, str(missing))
-    if isinstance(files, tuple):
-        verdict = check_proof(*files, max_seconds=max_seconds)
+    if isinstance(given, _ProofFiles):
+        verdict = check_proof(given.scene, given.proof, max_seconds=max_seconds)
     else:
-        verdict = check_proofs(files, max_seconds=max_seconds)
+        verdict = check_proofs(given, max_seconds=max_seconds)
     agrees = statement == verdict.line if accepted else not verdict.accepted
     by_cgal = "agrees" if agrees else f"DISAGREES: {verdict.line}"
     return _Verdict(accepted and agrees, statement, by_cgal)
+
+
+def _statement_by_python(given: Path | _ProofFiles) -> str:
+    """Return the statement that the checker in Python accepts, or its reason to reject a proof."""
+    from exactpt import check_apart, proof_check
+    from exactpt.files import read_bytes
+
+    file = given.proof if isinstance(given, _ProofFiles) else given
+    checker: Any = check_apart if _begins_with(file, b"exactpt-apart") else proof_check
+    try:
+        if isinstance(given, _ProofFiles):
+            return str(checker.check(read_bytes(given.scene), read_bytes(given.proof)))
+        return str(checker.check_chain(given))
+    except checker.Rejected as rejected:
+        return str(rejected)
+    except checker.NoProofError as refused:
+        raise InputError(f"{file}: {refused}") from None
+    except checker.Exhausted as exhausted:
+        raise BudgetExceeded(str(exhausted), None) from None
 
 
 @click.command()
