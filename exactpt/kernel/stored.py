@@ -170,6 +170,27 @@ class Stored:
             return values
         return [entry.integer(least, most) for entry in self.entries()]
 
+    def pairs(self, least: int) -> list[tuple[int, int]]:
+        """Return this list of pairs of integers.
+
+        >>> Stored([[0, 1], [2, "3"]], "run.json").pairs(0)
+        Traceback (most recent call last):
+        ...
+        exactpt.errors.InputError: run.json[1][1]: expected an integer from 0, got '3'
+
+        Raises:
+            InputError: if it is not a list of pairs, or an integer is less than ``least``.
+        """
+        self._check_list(None)
+        values: list[Any] = self._data
+        # Together: only an error needs the place of an entry.
+        if all(type(pair) is list and len(pair) == 2 for pair in values):
+            numbers = [number for pair in values for number in pair]
+            if set(map(type, numbers)) <= {int} and min(numbers, default=least) >= least:
+                return [(first, second) for first, second in values]
+        found = [entry.integers(least, length=2) for entry in self.entries()]
+        return [(first, second) for first, second in found]
+
     def double(self, *, least: float = -math.inf, most: float = math.inf) -> float:
         """Return this double, as a float.
 

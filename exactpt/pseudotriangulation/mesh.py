@@ -7,7 +7,7 @@ in the face on the left.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, cast
 
 from librt.vecs import append, vec
 from mypy_extensions import u8
@@ -276,11 +276,16 @@ class Mesh:
         count = len(origin)
         if count % 2:
             raise state["origin"].refused("an even number of half-edges")
+
+        def half_edges(key: str, length: int | None = count) -> list[HalfEdge]:
+            # A cast: to call `HalfEdge` for each of them takes most of the time of a copy.
+            return cast("list[HalfEdge]", state[key].integers(0, count - 1, length=length))
+
         self.map = PlanarMap.of(
-            map(VertexId, origin),
-            map(HalfEdge, state["following"].integers(0, count - 1, length=count)),
-            map(HalfEdge, state["previous"].integers(0, count - 1, length=count)),
-            list(map(HalfEdge, state["free"].integers(0, count - 1))),
+            cast("list[VertexId]", origin),
+            half_edges("following"),
+            half_edges("previous"),
+            list(half_edges("free", length=None)),
         )
         self.map.audit_free()
         self.region = vec[u8](state["region"].integers(FREE, INSIDE, length=count))
@@ -288,7 +293,7 @@ class Mesh:
         boundary = state["boundary"].integers(0, 1, length=count // 2)
         self.corner, self.boundary = vec[bool](map(bool, corner)), vec[bool](map(bool, boundary))
         ring_edge = state["ring_edge"].integers(int(NO_HALF_EDGE), count - 1, length=vertices)
-        self.ring_edge = half_edge_vec(map(HalfEdge, ring_edge))
+        self.ring_edge = half_edge_vec(cast("list[HalfEdge]", ring_edge))
 
     def labelling(self) -> list[frozenset[int]]:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""

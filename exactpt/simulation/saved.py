@@ -161,7 +161,7 @@ def _ring_from_json(data: Stored, body: Body, *, are_points: bool) -> list[tuple
     Raises:
         InputError: if its vertices are not those of the body, in the order of its rings.
     """
-    pairs = [item.integers(0, length=2) for item in data.entries()]
+    pairs = data.pairs(0)
     indices = [index for _, index in pairs]
     if are_points:
         fits = indices == [0]
