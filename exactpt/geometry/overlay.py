@@ -105,11 +105,14 @@ def union(parts: Iterable[Part]) -> list[Part]:
     Args:
         parts: each valid by itself, with rings of either orientation.
     """
-    rings: list[Sequence[Point]] = []
+    given: list[Sequence[Point]] = []
+    turned: list[Sequence[Point]] = []
     for part in parts:
-        rings.append(_turned(part.outline, is_left=True))
-        rings += (_turned(hole, is_left=False) for hole in part.holes)
-    return nonzero(rings)
+        given += part.rings
+        turned.append(_turned(part.outline, is_left=True))
+        turned += (_turned(hole, is_left=False) for hole in part.holes)
+    # Points are numbered as they were given: in a ring turned round, the last one would be first.
+    return _filled(turned, lambda winding: winding != 0, numbering=given)
 
 
 def as_given(parts: Iterable[Part], rings: Iterable[Sequence[Point]]) -> list[Part]:
@@ -142,10 +145,22 @@ def _turned(ring: Sequence[Point], *, is_left: bool) -> Sequence[Point]:
     return ring if is_counter_clockwise(ring) == is_left else ring[::-1]
 
 
-def _filled(rings: Sequence[Sequence[Point]], is_filled: Rule) -> list[Part]:
+def _filled(
+    rings: Sequence[Sequence[Point]],
+    is_filled: Rule,
+    *,
+    numbering: Sequence[Sequence[Point]] | None = None,
+) -> list[Part]:
+    """Return the parts that a rule fills.
+
+    Args:
+        rings: as in `nonzero`.
+        is_filled: the rule.
+        numbering: the same points, in the order that decides which is first; by default ``rings``.
+    """
     if not any(rings):
         return []
-    arrangement = _Arrangement(rings)
+    arrangement = _Arrangement(rings, rings if numbering is None else numbering)
     return _Boundary(arrangement, _Sweep(arrangement), is_filled).parts()
 
 
@@ -163,15 +178,20 @@ class _Arrangement:
 
     Attributes:
         points: the vertices, in their order.
-        given: for each vertex the number of other points that come first in the rings given; of
+        given: for each vertex the number of other points that come first in the numbering; of
             crossings, that of all points given.
         neighbours: for each vertex the other ends of the edges at it.
         pieces: the pieces of edges with a step that is not 0, in no order.
     """
 
-    def __init__(self, rings: Sequence[Sequence[Point]]) -> None:
+    def __init__(
+        self, rings: Sequence[Sequence[Point]], numbering: Sequence[Sequence[Point]]
+    ) -> None:
         self._numbers: dict[Point, int] = {}
         self._unsorted: list[Point] = []
+        for ring in numbering:
+            for point in ring:
+                self._number_of(point)
         edges = [
             edge
             for numbers in [[self._number_of(p) for p in ring] for ring in rings]

@@ -10,8 +10,10 @@ from exactpt.geometry.overlay import Part
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, rational, shorten
 from exactpt.motion.body import Body
-from exactpt.motion.motions import REST
+from exactpt.motion.displacement import displacement
+from exactpt.motion.motions import REST, is_affine
 from exactpt.motion.shape import are_constant, listed
+from exactpt.motion.track import Track, difference
 from exactpt.scene.scene import Scene
 
 
@@ -36,6 +38,8 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
 
     Args:
         bodies: polygons without a radius that do not deform, with equal motions or all at rest.
+            Motions may be written differently, such as by other pieces. One with an error (of a
+            path, a spin or a spline) is equal only to the same one.
             The parts of one body may overlap, too: each needs to be valid only by itself.
         name: the name of the result.
 
@@ -54,10 +58,11 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
     for body in given:
         _check_polygon(body)
     first = given[0]
-    other = next((body for body in given if body.motion != first.motion), None)
+    other = next((body for body in given if not _have_equal_motions(first, body)), None)
     if other is None:
         motion, outlines = first.motion, [(body, _rest_points(body)) for body in given]
     elif all(map(_is_at_rest, given)):
+        _check_error(given)
         motion, outlines = REST, [(body, body._at(QQ(0))) for body in given]
     else:
         raise InputError(
@@ -98,6 +103,47 @@ def _rest_points(body: Body) -> list[Point]:
             "united"
         )
     return [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+
+
+def _have_equal_motions(a: Body, b: Body) -> bool:
+    """Return True if the motions of two bodies are equal, though perhaps written differently.
+
+    At each time a motion is an affine map of the plane. The images of three points that are not
+    on one line determine such a map. A motion with an error is equal only to the same one.
+    """
+    if a.motion == b.motion:
+        return True
+    if not (is_affine(a.motion) and is_affine(b.motion)) or _has_error(a) or _has_error(b):
+        return False
+    corners = [(0, 0), (1, 0), (0, 1)]
+    first, second = (Body(body.name, corners, body.motion) for body in (a, b))
+    breaks = sorted({*first._breakpoints, *second._breakpoints})
+    before_all = breaks[0] - 1 if breaks else QQ(0)
+    return all(
+        _coincide(p, q)
+        for t in (before_all, *breaks)
+        for p, q in zip(first._piece_after(t).tracks, second._piece_after(t).tracks, strict=True)
+    )
+
+
+def _coincide(p: Track, q: Track) -> bool:
+    """Return True if two trajectories are equal at all times: x / w and y / w are."""
+    return not (difference(p.x, p.w, q.x, q.w) or difference(p.y, p.w, q.y, q.w))
+
+
+def _has_error(body: Body) -> bool:
+    """Return True if the motion of a body is known only within an error."""
+    return displacement(body, QQ(0), QQ(0)) > 0
+
+
+def _check_error(bodies: Sequence[Body]) -> None:
+    """Refuse bodies at rest whose error the motion of the result, rest, would not have."""
+    body = next(filter(_has_error, bodies), None)
+    if body is not None:
+        raise InputError(
+            f"union: the motion of body {shorten(body.name)} has an error, which would be lost: "
+            "give all the bodies this motion, or none"
+        )
 
 
 def _is_at_rest(body: Body) -> bool:

@@ -6,7 +6,18 @@ from random import Random
 import pytest
 
 import exactpt
-from exactpt import Body, InputError, PosePath, Rigid, Scene, Simulation, Spin, Translation
+from exactpt import (
+    Affine,
+    Body,
+    InputError,
+    Pieces,
+    PosePath,
+    Rigid,
+    Scene,
+    Simulation,
+    Spin,
+    Translation,
+)
 from exactpt.kernel.numbers import QQ
 
 FIRST = Body("first", [(0, 0), (2, 0), (0, 2)])
@@ -51,6 +62,62 @@ def test_bodies_at_rest_may_be_placed_by_different_motions():
     assert exactpt.union([Body("a", SQUARE), moved], name="u").size == 8
     assert exactpt.union([Body("a", SQUARE), frames], name="u").size == 8
     assert exactpt.union([moved, Body("b", OTHER)], name="u").at(0) == OTHER
+
+
+SHIFT = Translation([0, 1], [0, 0, "1/3"])
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        Affine([[1, 0], [0, 1]], x=[0, 1], y=[0, 0, "1/3"]),
+        Rigid(0, x=[0, 1], y=[0, 0, "1/3"], pivot=(5, 7)),
+        Pieces([(3, SHIFT), (None, Rigid([], x=SHIFT.x, y=SHIFT.y))]),
+    ],
+)
+def test_equal_motions_that_are_written_differently_are_equal(written):
+    """Each of them adds (t, t^2 / 3) to every point."""
+    both = exactpt.union([Body("a", SQUARE, SHIFT), Body("b", OTHER, written)], name="u")
+
+    assert both.motion == SHIFT
+    assert both.at(3)[0] == (3, 3)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        Pieces([(3, SHIFT), (None, Translation([3], [3]))]),  # equal up to t = 3
+        Pieces([(3, Translation([0, 1], [3])), (None, SHIFT)]),  # equal from t = 3 on
+        Affine([[1, 0], [0, [1, 1]]], x=[0, 1], y=[0, 0, "1/3"]),  # equal on the x-axis
+        Affine([[[1, 1], 0], [0, 1]], x=[0, 1], y=[0, 0, "1/3"]),  # equal on the y-axis
+    ],
+)
+def test_motions_that_are_equal_in_part_are_not_equal(other):
+    with pytest.raises(InputError, match="move differently"):
+        exactpt.union([Body("a", SQUARE, SHIFT), Body("b", OTHER, other)], name="u")
+
+
+def test_rest_that_is_known_within_an_error_is_not_united_with_rest():
+    """The union would be at rest exactly: a touch of it would be certain, though it is not."""
+    resting = PosePath([0, 2], [(0, 0, 0)]).with_place_error("1/10")
+    bodies = [Body("a", SQUARE), Body("b", OTHER, resting)]
+
+    with pytest.raises(InputError, match="body 'b' has an error, which would be lost"):
+        exactpt.union(bodies, name="u")
+    alike = exactpt.union([body.with_motion(resting) for body in bodies], name="u")
+    assert alike.motion.place_error == QQ(1, 10)
+
+
+@pytest.mark.parametrize("motion", [Translation(), Translation([0, 1])])
+def test_each_ring_begins_with_the_vertex_that_came_first_whichever_way_it_was_given(motion):
+    clockwise = Body(
+        "c", [(0, 0), (0, 9), (9, 9), (9, 0)], motion, holes=[[(1, 1), (3, 1), (2, 2)]]
+    )
+
+    rings = exactpt.union([clockwise], name="u")
+
+    assert rings.at(0)[:4] == [(0, 0), (9, 0), (9, 9), (0, 9)]
+    assert rings.at(0)[4:] == [(1, 1), (2, 2), (3, 1)]
 
 
 def test_collinear_vertices_stay_and_properties_go():
