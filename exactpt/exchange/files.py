@@ -16,6 +16,7 @@ from exactpt.exchange.losses import Losses, check_strict
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import shorten
+from exactpt.motion.displacement import has_assumed_error
 from exactpt.motion.motions import REST
 from exactpt.motion.shape import are_constant, listed
 from exactpt.scene.format import loads
@@ -224,8 +225,8 @@ def write_shapes(
         path: a file with a suffix in `ENDINGS`; it is complete or not there.
         at: the time, which may be irrational; by default the start.
         tolerance: maximum distance of a chord from its arc; by default a hundredth of the radius.
-        strict: whether data that would be left out are an error; so are radii, and motions if no
-            time is given.
+        strict: whether data that would be left out are an error; so are radii, motions if no time
+            is given, and errors that are stated of motions.
 
     Raises:
         InputError: if the time is outside the time span, or the file cannot be written.
@@ -271,6 +272,8 @@ def lost_by_writing(
     for i, body in enumerate(scene.bodies):
         if kind != "mfjson" and at is None and _moves(body):
             losses.count("motion", "body")
+        elif has_assumed_error(body.motion):
+            losses.count("error of the motion", "body")
         if kind != "mfjson" and body._radius:
             losses.count("radius", "body")
         if not _keeps_name(body.name, i, kind):

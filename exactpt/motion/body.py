@@ -231,7 +231,11 @@ class Body:
         return other
 
     def halted(self, t: Rational) -> Body:
-        """Return a body of the same name and kind at rest, as this one is at a rational time."""
+        """Return a body of the same name and kind at rest, as this one is at a rational time.
+
+        It is where the rational pieces of its motion are, without the error of a path, a spin or
+        a spline.
+        """
         points = self._at(rational(t))
         if self._parts is None:
             body = Body(self.name, points, closed=self.closed, radius=str(self._radius))

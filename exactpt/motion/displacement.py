@@ -69,6 +69,20 @@ def displacement(body: Body, start: QQ, end: QQ) -> QQ:
     return _rounded_up(off) if off else off
 
 
+def has_assumed_error(motion: Motion) -> bool:
+    """Return True if a motion has an error that is not proved: a stated one, or of a closed curve.
+
+    >>> path = PosePath([0, 1], [([0, 1], 0, [0, 1])])
+    >>> has_assumed_error(path), has_assumed_error(path.with_place_error("1/10"))
+    (False, True)
+    """
+    if isinstance(motion, Spline):
+        return motion._error > 0
+    if isinstance(motion, PosePath):
+        return motion._assumed_angle_error > 0 or motion._assumed_place_error() > 0
+    return False
+
+
 def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
     """Return where a body is known best at a time.
 

@@ -98,7 +98,8 @@ def onward(
     """Return the motion by which a body continues from its position with a new velocity.
 
     The translation becomes linear; rotation or affine deformation continues unchanged. For a
-    motion in pieces this applies to all pieces from t on.
+    motion in pieces this applies to all pieces from t on. The pieces of a path, a spin or a spline
+    continue without its error.
 
     Args:
         body: the body whose motion is replaced.

@@ -1,13 +1,15 @@
 """What a file has and a scene has no place for: kept as data, named once, or refused on demand."""
 
 import json
+from pathlib import Path
 
 import pytest
 import shapely
 from commands import code_of, run
 from folding import every
 
-from exactpt import Body, InputError, Scene, Translation, read_shapes, write_shapes
+from exactpt import Body, InputError, PosePath, Scene, Translation, read_shapes, write_shapes
+from exactpt.exchange.files import lost_by_writing
 
 POINT = {"type": "Point", "coordinates": [1, 2]}
 HIGH = {"type": "LineString", "coordinates": [[0, 0, 5], [1, 1, 6]]}
@@ -246,6 +248,24 @@ def test_losses_of_writing_are_named(tmp_path, suffix, at, lost):
         [] if lost is None else [f"lost: {lost}"]
     )
     assert code_of("convert", scene, target, "--strict", *when) == (0 if lost is None else 2)
+
+
+@pytest.mark.parametrize(
+    "suffix, at, lost",
+    [
+        ("json", None, ()),
+        ("mfjson", None, ("error of the motion of 1 body",)),
+        ("geojson", 1, ("error of the motion of 1 body",)),
+        ("geojson", None, ("motion of 2 bodies",)),
+    ],
+)
+def test_stated_errors_of_motions_are_named_where_a_format_has_no_place_for_them(suffix, at, lost):
+    """The errors of fitting of both paths vanish, as they do not turn; one has a stated error."""
+    path = PosePath([0, 1], [([0, 1], 0, 0)])
+    known_less = Body("a", [(0, 0)], path.with_place_error("1/10"))
+    scene = Scene([known_less, Body("b", [(5, 5)], path)])
+
+    assert lost_by_writing(scene, Path(f"out.{suffix}"), at) == lost
 
 
 def test_names_that_a_format_cannot_hold_are_named(tmp_path):
