@@ -105,7 +105,7 @@ class _Bodies:
             if self._repaired is None:
                 raise
             given = shape.without_holes() if self._holes == "fill" else shape
-            repaired = mended(given)
+            repaired = mended(given, error.fault)
             for part in repaired.parts if self._splits else (repaired,):
                 self._add(part)
             self._repaired(repair_report(given, repaired, error.fault))
@@ -196,9 +196,9 @@ def _check_valid(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
         split = "split it (--parts split), " if shape.more else ""
         if body.has_rings and any(part.holes for part in shape.parts):
             split += "fill its holes (--holes fill), "
+        mend = "mend it (--repair)" if body.has_interior else "mend it"  # chains are not repaired
         raise InvalidShapeError(
-            f"{shape.where}: {error}; {split}mend it (--repair), or leave such outlines out "
-            "(--skip-invalid)",
+            f"{shape.where}: {error}; {split}{mend}, or leave such outlines out (--skip-invalid)",
             str(error).removeprefix(f"body {shorten(body.name)}: "),
         ) from None
 

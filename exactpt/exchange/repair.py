@@ -9,7 +9,7 @@ from exactpt.geometry.overlay import as_given, evenodd, union
 from exactpt.kernel.numbers import shorten
 
 
-def mended(shape: Shape) -> Shape:
+def mended(shape: Shape, fault: str) -> Shape:
     """Return the polygons that a shape of any rings fills, as the parts of one shape.
 
     Each part of the shape fills the points that an odd number of turns of its rings surrounds; the
@@ -18,11 +18,18 @@ def mended(shape: Shape) -> Shape:
 
     A line that ends where it began is such a polygon.
 
+    Args:
+        shape: a shape that is not valid.
+        fault: why it is not.
+
     Raises:
         InputError: if the shape is not a polygon, or fills nothing.
     """
     if shape.kind != "polygon" and (len(shape.points) < 4 or shape.points[0] != shape.points[-1]):
-        raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
+        raise InputError(
+            f"{shape.where}: {shorten(shape.name)}: {fault}; only polygons are repaired: "
+            "remove it, or leave such shapes out (--skip-invalid)"
+        )
     try:
         filled = [evenodd(part.rings) for part in shape.parts]
         parts = filled[0] if len(filled) == 1 else union(part for some in filled for part in some)

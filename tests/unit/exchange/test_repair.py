@@ -63,8 +63,17 @@ def test_a_crossing_is_exact(tmp_path):
 def test_what_fills_nothing_says_so(tmp_path, text):
     with pytest.raises(InputError, match="nothing of 'body 0' has an area"):
         read_shapes(written(tmp_path, text), repair=True)
-    with pytest.raises(InputError, match="only polygons are repaired"):
+    with pytest.raises(
+        InputError,
+        match=r"edge 0 from .* meets edge 2 from .*; only polygons are repaired: remove it",
+    ):
         read_shapes(written(tmp_path, "LINESTRING (0 0, 4 0, 2 2, 2 -2)"), repair=True)
+
+
+def test_a_chain_that_crosses_itself_is_not_told_to_be_repaired(tmp_path):
+    """Edge 2 leads from (2, 2) to (2, -2) through (2, 0) on edge 0."""
+    with pytest.raises(InputError, match=r"not a simple chain .* mend it, or leave"):
+        read_shapes(written(tmp_path, "LINESTRING (0 0, 4 0, 2 2, 2 -2)"))
 
 
 def test_a_bow_tie_of_equal_lobes_crosses_itself(tmp_path):
