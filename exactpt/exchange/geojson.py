@@ -39,8 +39,11 @@ TYPES: Final = {"Feature", "FeatureCollection", *_GEOMETRIES}
 """Possible values of the key "type" of a GeoJSON object."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
-_MEANINGFUL: Final = {"coordinates", "geometries", "geometry", "properties", "features"}
-"""Members that RFC 7946 (7.1) allows only in the objects that it defines with them."""
+_MEANINGFUL: Final = {
+    "coordinates", "geometries", "geometry", "properties", "features", "temporalGeometry",
+}  # fmt: skip
+"""Members that RFC 7946 (7.1), and the standard of moving features, allow only in the objects that
+they define with them."""
 _REFERENCE: Final = ("crs", "bbox")
 """Members of any object that have no place in a scene."""
 _OF_FEATURE: Final = {"type", "geometry", "properties", *_REFERENCE}
@@ -143,7 +146,7 @@ def _of_feature(data: Json, where: str, losses: Losses) -> Iterator[Shape]:
     if data["geometry"] is None:
         losses.unlocated(where)
         return
-    _check_dates(data, where)
+    _check_dates(_data_with_dates(data), data["geometry"], where)
     for shape in geometry_shapes(data["geometry"], where, name, losses):
         parts = [part._replace(properties=properties) for part in shape.more]
         yield shape._replace(properties=properties, more=parts)
@@ -185,19 +188,31 @@ def data_of(feature: dict[str, Json], where: str, known: set[str]) -> dict[str, 
     return found or None
 
 
-def _check_dates(feature: dict[str, Json], where: str) -> None:
-    """Refuse a feature at rest that has a date for each of its positions: it moves.
+def _data_with_dates(feature: dict[str, Json]) -> list[dict[str, Json]]:
+    """Return the objects of a feature whose members may be the dates of its positions."""
+    properties = feature.get("properties")
+    objects = [feature, *([properties] if isinstance(properties, dict) else [])]
+    inner = [value for data in objects for value in data.values() if isinstance(value, dict)]
+    return [*objects, *inner]
+
+
+def _check_dates(holders: Sequence[dict[str, Json]], geometry: Json, where: str) -> None:
+    """Refuse a geometry at rest that has a date for each of its positions: it moves.
 
     A line string with ``datetimes`` is read as a trajectory, see `exactpt.exchange.mfjson`. Other
-    programs have the dates in other properties, or in an object that is a property.
+    programs have the dates elsewhere: in other properties, in an object that is a property, beside
+    the geometry, or within it.
     """
-    geometry, properties = feature["geometry"], feature.get("properties")
-    if not isinstance(geometry, dict) or not isinstance(properties, dict):
+    if not isinstance(geometry, dict):
+        return
+    if geometry.get("type") == "GeometryCollection":
+        inner = geometry.get("geometries")
+        for one in inner if isinstance(inner, list) else ():
+            _check_dates(holders, one, where)
         return
     if geometry.get("type") not in ("LineString", "MultiLineString", "MultiPoint"):
         return
-    inner = [data for data in properties.values() if isinstance(data, dict)]
-    for key, dates in chain.from_iterable(data.items() for data in [properties, *inner]):
+    for key, dates in chain.from_iterable(data.items() for data in holders):
         if _dates_each(dates, geometry.get("coordinates"), numbers=key.lower() == _DATES):
             raise InputError(
                 f"{where}: {shorten(key)} has a date for each position, and would be at rest: a "
@@ -294,6 +309,7 @@ def geometry_shapes(
         raise InputError(f"{where}: a {kind} is inside of a geometry")
     content = "geometries" if kind == "GeometryCollection" else "coordinates"
     _check_members(data, kind, {content}, where)
+    _check_dates([data], data, where)
     for key, value in data.items():
         if key in _REFERENCE:
             drop_reference(key, value, losses)

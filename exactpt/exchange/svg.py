@@ -189,7 +189,9 @@ def _outlines(drawing: Drawing, tolerance: float) -> Iterator[_Outline]:
         for element in parsed.elements():
             if isinstance(element, svgelements.Shape):
                 number = element.values[OUTLINE]
-                path = _mapped(svgelements.Path(element), drawing.matrices[number], tolerance)
+                given = svgelements.Path(element)
+                _close_rounded(given)
+                path = _mapped(given, drawing.matrices[number], tolerance)
                 _check_windows(path, drawing.windows[number])
                 fill_rule = element.values.get("fill-rule", "nonzero")
                 yield _Outline(element.id or "", fill_rule, path)
@@ -198,6 +200,30 @@ def _outlines(drawing: Drawing, tolerance: float) -> Iterator[_Outline]:
     except Exception as error:  # any error that a damaged drawing causes in the parser
         reason = _reason(drawing.root, error)
         raise InputError(f"not a drawing that can be read: {reason}") from None
+
+
+def _close_rounded(path: svgelements.Path) -> None:
+    """End each subpath where it began, if only rounding keeps its last point from there.
+
+    Relative coordinates are added in doubles, and the ends of the arcs of an ellipse are computed
+    from their angles. So a subpath that returns to its start may end beside it, which would be
+    a vertex and an edge that the drawing does not have, or a line instead of a polygon.
+
+    Let M be the largest coordinate and u = 2**-53. Each segment adds at most 3 u M to the distance
+    in x and in y: u M by the sum, and 2 u M as its offset, of at most 2 M, is the nearest double.
+    The start and the ends of arcs (a product and a sum) are within 3 u M too.
+    """
+    import svgelements
+
+    for subpath in path.as_subpaths():
+        drawn = [s for s in subpath if not isinstance(s, (svgelements.Move, svgelements.Close))]
+        if len(drawn) < 2 or drawn[0].start is None:
+            continue
+        start, end = drawn[0].start, drawn[-1].end
+        largest = max(max(abs(s.end.x), abs(s.end.y)) for s in drawn)
+        rounding = 3 * (len(drawn) + 2) * 2.0**-53 * largest
+        if abs(start.x - end.x) <= rounding and abs(start.y - end.y) <= rounding:
+            drawn[-1].end = svgelements.Point(start)
 
 
 def _mapped(path: svgelements.Path, matrix: Matrix, tolerance: float) -> svgelements.Path:

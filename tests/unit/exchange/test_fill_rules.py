@@ -117,6 +117,16 @@ def test_another_fill_rule_is_refused(tmp_path, value):
         read_shapes(drawn(tmp_path, f'<path style="fill-rule:{value}" d="{CROSS}"/>'))
 
 
+@pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
+def test_fill_rule_inherit_is_that_of_the_group(tmp_path, rule):
+    own = f'<path fill-rule="{rule}" d="{TWO_ALIKE}"/>'
+    inherited = f'<g fill-rule="{rule}"><path fill-rule="inherit" d="{TWO_ALIKE}"/></g>'
+
+    (right,), (found,) = (read_shapes(drawn(tmp_path, d)).bodies for d in (own, inherited))
+
+    assert found.at(0) == right.at(0)
+
+
 @pytest.mark.parametrize(
     "path, message",
     [

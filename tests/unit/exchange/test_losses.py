@@ -144,6 +144,10 @@ TRACKS = {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 1]], [[5, 5], 
         feature(HIGH, {"coordinateProperties": {"times": DATES}}),
         feature({**HIGH, "type": "MultiPoint"}, {"datetimes": DATES}),
         feature(TRACKS, {"datetimes": [DATES, DATES]}),
+        feature(HIGH, datetimes=DATES),
+        feature({**HIGH, "datetimes": DATES}),
+        {**HIGH, "datetimes": [0, 1000]},
+        feature({"type": "GeometryCollection", "geometries": [POINT, HIGH]}, {"datetimes": DATES}),
     ],
 )
 def test_dates_of_positions_at_rest_are_refused(tmp_path, data):
@@ -173,6 +177,8 @@ def test_other_lists_are_properties(tmp_path, data):
     [
         (feature(coordinates=[1, 2]), "a Feature has no 'coordinates': remove it"),
         (collection(feature(), geometry=None), "a FeatureCollection has no 'geometry'"),
+        (collection(feature(), temporalGeometry={}), "Collection has no 'temporalGeometry'"),
+        (feature({**POINT, "temporalGeometry": {}}), "a Point has no 'temporalGeometry'"),
         (feature({**POINT, "geometries": []}), "a Point has no 'geometries'"),
         (feature({"type": "GeometryCollection", "geometries": [POINT], "coordinates": []}),
          "a GeometryCollection has no 'coordinates'"),

@@ -213,3 +213,30 @@ def test_an_ellipse_that_is_sheared_stays_within_the_tolerance(transform, turn):
     around = np.array([(math.cos(k / 500), math.sin(k / 500)) for k in range(3142)])
     curve = (around @ linear.T + moved).tolist()
     assert farthest(curve, [*corners.tolist(), corners[0].tolist()]) <= 1e-3 * (1 + 1e-6)
+
+
+@every(
+    "outline, right",
+    [
+        ('<circle cx="5" cy="5" r="3"/>', [(8, -5), (5, -8), (2, -5), (5, -2)]),
+        ('<ellipse cx="0.1" cy="0.7" rx="0.3" ry="0.2"/>',
+         [(0.4, -0.7), (0.1, -0.9), (-0.2, -0.7), (0.1, -0.5)]),
+        ('<path d="m .1 .2 l .3 0 0 .7 -.3 0 0 -.7 z"/>',
+         [(0.1, -0.2), (0.4, -0.2), (0.4, -0.9), (0.1, -0.9)]),
+        ('<path transform="rotate(90)" d="m .1 .2 l .3 0 0 .7 -.3 0 0 -.7"/>',
+         [(-0.2, -0.1), (-0.2, -0.4), (-0.9, -0.4), (-0.9, -0.1)]),
+    ],
+)  # fmt: skip
+def test_outline_that_returns_to_its_start_has_no_edge_of_rounding(outline, right):
+    """By the decimals the last point is the first; in doubles it is beside it by some 1e-16."""
+    (body,) = scene_of(shapes_of(drawing(outline), 4.0)).bodies
+
+    assert body.closed
+    assert np.array(body.at(0), dtype=float) == pytest.approx(np.array(right), abs=1e-12)
+
+
+def test_outline_that_ends_near_its_start_keeps_the_edge():
+    """The gap of 1e-13 is more than rounding: 3 * 6 * 2**-53 is 2e-15."""
+    (body,) = scene_of(shapes_of(drawing('<path d="M0 0H1V1H0V1e-13z"/>'), 0.1)).bodies
+
+    assert [float(y) for _, y in body.at(0)] == [0, 0, -1, -1, -1e-13]
