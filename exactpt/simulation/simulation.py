@@ -297,11 +297,15 @@ class Simulation:
             InputError: if no time is given and now is not rational, if the time is not between
                 now and the next event, or if the run has ended with a contact.
         """
-        if self.contact is not None:
-            raise InputError(f"no tiling: {why_no_tiling(self.contact)}")
+        self._check_tiling()
         with self._run.alone:
             self._run.check_whole()
             return self._spaces.space(self._run.mutable.kinetic, at)
+
+    def _check_tiling(self) -> None:
+        """Refuse a question about the tiling when the run has ended with a contact."""
+        if self.contact is not None:
+            raise InputError(f"no tiling: {why_no_tiling(self.contact)}")
 
     def snapshot(self) -> Snapshot:
         """Return the tiling at the current time, which must be rational.
@@ -327,7 +331,11 @@ class Simulation:
         >>> tiling = simulation.tiling
         >>> tiling.at.polynomial, tiling.nodes[0].x == tiling.at, len(tiling.faces)
         ((-5, 1, 1), True, 3)
+
+        Raises:
+            InputError: if the run has ended with a contact.
         """
+        self._check_tiling()
         if not self.now.simplified().is_rational:
             with self._run.alone:
                 self._run.check_whole()

@@ -221,3 +221,18 @@ def test_a_contact_at_a_breakpoint_can_be_gone_back_from(tiling):
 
     assert [event.time for event in events if event.kind == "contact"] == [1]
     assert simulation.contact is None
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
+@pytest.mark.parametrize("run_out", [Simulation.run_to_contact, lambda s: list(s.run())])
+def test_tiling_at_a_contact_at_an_irrational_time_is_refused(tiling, run_out):
+    """The vertex (0, 1 + t^2) meets the line y = 3 at t = sqrt 2: no tiling holds there."""
+    rising = Body("rising", [(0, 0), (1, 0), (0, 1)], Translation([0], [0, 0, 1]))
+    wall = Body("wall", [(-9, 3), (9, 3), (0, 4)])
+    simulation = Simulation(Scene([rising, wall], (0, 3)), tiling=tiling)
+    run_out(simulation)
+
+    assert simulation.now.polynomial == (-2, 0, 1)
+    for question in (lambda: simulation.tiling, simulation.snapshot, simulation.space):
+        with pytest.raises(InputError, match=r"no tiling: the first contact is at t = 1\.41421356"):
+            question()
