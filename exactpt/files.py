@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
 
 if sys.platform == "win32":
     import msvcrt
@@ -47,7 +48,7 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
     """
     limit = MAX_BYTES if most is None else most
     if not isinstance(limit, Integral) or limit < 0:
-        raise InputError(f"max_bytes: not a number of bytes: {repr(limit)[:60]}")
+        raise InputError(f"max_bytes: not a number of bytes: {shorten(limit)}")
     content = io.BytesIO()
     try:
         with path.open("rb") as file:

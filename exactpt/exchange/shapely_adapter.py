@@ -18,7 +18,15 @@ from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.exchange.bodies import Holes, Parts, body_of, scene_of
 from exactpt.exchange.losses import Losses
-from exactpt.exchange.shapes import Kind, Shape, rounded, rounded_rings, shapes_at, together
+from exactpt.exchange.shapes import (
+    Kind,
+    Shape,
+    positive_tolerance,
+    rounded,
+    rounded_rings,
+    shapes_at,
+    together,
+)
 from exactpt.kernel.numbers import nearest_float, rational, shorten
 
 try:
@@ -238,11 +246,10 @@ def _quarter(radius: float, tolerance: float | None) -> int:
 
     It is the least n with r (1 - cos(pi / 4 n)) <= tolerance.
     """
-    ratio = 0.01 if tolerance is None else tolerance / radius
-    if not (math.isfinite(ratio) and ratio > 0):
-        raise InputError(f"the tolerance is a positive number: {tolerance}")
+    ratio = 0.01 if tolerance is None else positive_tolerance(tolerance) / radius
     # 1 - cos(a) = 2 sin(a / 2)^2.
-    count = math.pi / (8.0 * math.asin(math.sqrt(min(ratio, 1.0) / 2.0)))
+    half = math.asin(math.sqrt(min(ratio, 1.0) / 2.0))
+    count = math.pi / (8.0 * half) if half else math.inf  # 0: the quotient is below all doubles
     if count > _MAX_CHORDS:
         raise InputError(f"an arc needs more than {_MAX_CHORDS} chords: raise the tolerance")
     return math.ceil(count)

@@ -7,6 +7,7 @@ may have holes, and not every shape is a valid body.
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
@@ -78,6 +79,22 @@ def together(parts: Sequence[Shape]) -> list[Shape]:
     if len(parts) > 1 and all(part.kind == "polygon" for part in parts):
         return [parts[0]._replace(more=parts[1:])]
     return list(parts)
+
+
+def positive_tolerance(tolerance: Rational) -> float:
+    """Return a maximum distance of chords as the nearest double; a larger one is the largest.
+
+    Raises:
+        InputError: if it is not a positive number.
+    """
+    try:
+        exact = rational(tolerance)
+    except InputError:
+        exact = rational(0)
+    if exact <= 0:
+        raise InputError(f"the tolerance is a positive number: {shorten(tolerance)}")
+    # The least double stands for a positive number that is nearer to 0.
+    return min(max(nearest_float(exact), math.ulp(0.0)), sys.float_info.max)
 
 
 def shapes_at(scene: Scene, time: Rational | AlgebraicNumber) -> list[Shape]:

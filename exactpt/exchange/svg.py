@@ -19,7 +19,7 @@ from exactpt.exchange.drawing import read_drawing, valid_text
 from exactpt.exchange.flattening import NAMESPACE, OUTLINE, Drawing, Window
 from exactpt.exchange.lengths import Matrix
 from exactpt.exchange.losses import Losses
-from exactpt.exchange.shapes import Shape, rounded_rings
+from exactpt.exchange.shapes import Shape, positive_tolerance, rounded_rings
 from exactpt.geometry.overlay import Part, as_given, evenodd, nonzero
 from exactpt.geometry.polygon import are_collinear
 from exactpt.geometry.simple import is_surely_simple
@@ -75,8 +75,7 @@ def shapes_of(text: str, tolerance: float, losses: Losses | None = None) -> Iter
     Raises:
         InputError: if it is not a drawing, or the tolerance is not positive.
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise InputError(f"the tolerance is a positive number: {tolerance}")
+    tolerance = positive_tolerance(tolerance)
     left = _MAX_POINTS
     drawing = read_drawing(text, losses or Losses())
     tolerance /= float(max(drawing.scale))

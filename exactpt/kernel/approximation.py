@@ -8,13 +8,22 @@ from __future__ import annotations
 
 import math
 import sys
-from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
+from decimal import MAX_EMAX, MAX_PREC, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
+from numbers import Integral
 from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import IntPoly, range_on, scale, sign_at, subtract
-from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
+from exactpt.kernel.numbers import (
+    QQ,
+    ZZ,
+    enclosing_floats,
+    floor,
+    nearest_float,
+    power_of_two,
+    shorten,
+)
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -222,10 +231,10 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
         digits: the number of significant digits, at least 1.
 
     Raises:
-        InputError: if ``digits`` is less than 1.
+        InputError: if ``digits`` is not an integer from 1 to the most that `decimal` has.
     """
-    if digits < 1:
-        raise InputError(f"digits: at least 1: {digits}")
+    if not isinstance(digits, Integral) or not 1 <= digits <= MAX_PREC:
+        raise InputError(f"digits: at least 1, at most {MAX_PREC}: {shorten(digits)}")
     context = rounding_context(digits)
     if time.sign_of(p) == 0:
         return Decimal(0)

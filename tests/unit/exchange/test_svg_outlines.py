@@ -240,3 +240,19 @@ def test_outline_that_ends_near_its_start_keeps_the_edge():
     (body,) = scene_of(shapes_of(drawing('<path d="M0 0H1V1H0V1e-13z"/>'), 0.1)).bodies
 
     assert [float(y) for _, y in body.at(0)] == [0, 0, -1, -1, -1e-13]
+
+
+@pytest.mark.parametrize("tolerance", ["wide", None, -(10**1000), [1], object()])
+def test_tolerance_that_is_no_positive_number_is_named_in_brief(tolerance):
+    with pytest.raises(InputError, match="the tolerance is a positive number") as refused:
+        shapes("", tolerance=tolerance)
+
+    assert len(str(refused.value)) < 120
+
+
+@pytest.mark.parametrize("tolerance", [10**1000, QQ(10**1000, 3), "1e400", 9])
+def test_tolerance_beyond_the_doubles_is_a_wide_one(tolerance):
+    """Of a circle of radius 3, every chord is within 9: the ends of its four arcs are left."""
+    (shape,) = shapes('<circle r="3"/>', tolerance=tolerance)
+
+    assert len(set(shape.points)) == 4

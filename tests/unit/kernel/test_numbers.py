@@ -377,9 +377,12 @@ def test_zero_is_found():
     assert decimal_quotient(poly(-2, 0, 1), poly(3, 1), ROOT_OF_TWO, 20) == 0
 
 
-def test_no_digits_are_refused():
-    with pytest.raises(InputError, match="digits: at least 1"):
-        decimal_quotient(poly(1), poly(1), ROOT_OF_TWO, 0)
+@pytest.mark.parametrize("digits", [0, -1, pytest.param(10**10000, id="long"), 2.0, "3"])
+def test_a_number_of_digits_that_no_decimal_has_is_refused(digits):
+    with pytest.raises(InputError, match="digits: at least 1") as refused:
+        decimal_quotient(poly(1), poly(1), ROOT_OF_TWO, digits)
+
+    assert len(str(refused.value)) < 150
 
 
 @every(
