@@ -38,7 +38,12 @@ PLANTED = {
         "_cut",
         lambda *given: given[2],
     ),
-    "a page has no size": ("svg", flattening, "_page", lambda *_: ((1, 1), (256, 256))),
+    "a page has no size": (
+        "svg",
+        flattening,
+        "_page",
+        lambda *_: flattening._Page((1, 1), (256, 256)),
+    ),
 }
 
 
