@@ -30,7 +30,7 @@ from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import is_counter_clockwise
-from exactpt.geometry.predicates import Point, between, orientation
+from exactpt.geometry.predicates import Point, between, crossing_of_lines, orientation
 from exactpt.geometry.simple import are_apart, cross_sign
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, exponent, nearest_float, power_of_two, relative_doubles
@@ -241,7 +241,7 @@ class _Arrangement:
         of_c, of_d = orientation(a, b, c), orientation(a, b, d)
         of_a, of_b = orientation(c, d, a), orientation(c, d, b)
         if of_c * of_d < 0 and of_a * of_b < 0:
-            yield self._number_of(_crossing(a, b, c, d))
+            yield self._number_of(crossing_of_lines(a, b, c, d))
             return
         if of_c == 0 and between(a, b, c):
             yield f[0]
@@ -257,15 +257,6 @@ class _Arrangement:
         x, y, error = self._near
         certain = cross_sign(x[b] - x[a], y[b] - y[a], x[c] - x[a], y[c] - y[a], error)
         return certain or orientation(self.points[a], self.points[b], self.points[c])
-
-
-def _crossing(a: Point, b: Point, c: Point, d: Point) -> Point:
-    """Return the common point of two lines ab and cd that are not parallel."""
-    ux, uy = b[0] - a[0], b[1] - a[1]
-    vx, vy = d[0] - c[0], d[1] - c[1]
-    wx, wy = c[0] - a[0], c[1] - a[1]
-    share = (wx * vy - wy * vx) / (ux * vy - uy * vx)
-    return a[0] + share * ux, a[1] + share * uy
 
 
 class _Near(NamedTuple):

@@ -40,6 +40,15 @@ def orientation(a: Point, b: Point, c: Point) -> int:
     return sign(orient2d(a, b, c))
 
 
+def crossing_of_lines(a: Point, b: Point, c: Point, d: Point) -> Point:
+    """Return the common point of two lines ab and cd that are not parallel."""
+    ux, uy = b[0] - a[0], b[1] - a[1]
+    vx, vy = d[0] - c[0], d[1] - c[1]
+    wx, wy = c[0] - a[0], c[1] - a[1]
+    share = (wx * vy - wy * vx) / (ux * vy - uy * vx)
+    return a[0] + share * ux, a[1] + share * uy
+
+
 def is_left_of_path(before: Point, at: Point, after: Point, p: Point) -> bool:
     """Return True if p, seen from the middle of a path of three points, is on its left.
 

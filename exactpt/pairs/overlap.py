@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import pairwise
-from typing import TypeAlias
+from collections.abc import Collection, Iterator, Sequence
+from itertools import pairwise, product
+from typing import NamedTuple, TypeAlias, final
 
 from exactpt.geometry.polygon import contains
-from exactpt.geometry.predicates import Point, between, is_left_of_path, orientation
+from exactpt.geometry.predicates import (
+    Point,
+    between,
+    crossing_of_lines,
+    is_left_of_path,
+    orientation,
+)
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
@@ -15,6 +21,33 @@ from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.piece_pairs import cores_intersect, segments_of
 
 Segment: TypeAlias = "tuple[Point, Point]"
+
+
+@final
+class _Placed(NamedTuple):
+    """A body at one time.
+
+    Attributes:
+        body: the body.
+        points: its vertices.
+        edges: its edges; of a point, one without length.
+        pinches: points among which are those in which its rings touch; none if none do.
+    """
+
+    body: Body
+    points: Sequence[Point]
+    edges: Sequence[Segment]
+    pinches: Collection[Point]
+
+    def is_entered_at(self, point: Point) -> bool:
+        """Return True if an edge that crosses an edge of the body in a point goes into it there."""
+        return self.body.has_interior and point not in self.pinches
+
+
+def _placed(body: Body, t: QQ) -> _Placed:
+    points = body._at(t)
+    edges = [(points[i], points[j]) for i, j in segments_of(body)]
+    return _Placed(body, points, edges, set(points) if body._ring_touches else ())
 
 
 def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
@@ -30,28 +63,43 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     that one of them divides each small neighbourhood of C, and the other has points in two of
     its parts. Rounded bodies overlap if their cores are nearer than the sum of the radii.
 
-    Edges cross if each has its ends strictly on both sides of the other. Let no edges cross, and
-    cut each edge of one body at the vertices of the other. Then each part of an edge is inside
-    of another polygon, outside, or on its boundary, as its midpoint is. If none is inside, the
-    interior of each part of a polygon is inside or outside of the other as a whole, and one
-    interior point of each decides. What chains have in common are vertices and whole parts of
-    edges: a piece C is a path in both. If an end of a chain is in C, the chain does not divide
-    its neighbourhood, and leaves C at one end at most. Else C divides both, and they cross if one
-    leaves C to different sides of the other.
+    Edges cross if each has its ends strictly on both sides of the other. Then each goes into the
+    interior of the other's polygon, unless another ring of that polygon touches the edge there: a
+    thin body may lead through such a point into a hole. The point is a vertex of the polygon then.
+    Let edges cross in such points only, and cut each edge of one body at the vertices of the other.
+    Then each part of an edge is inside of another polygon, outside, or on its boundary, as its
+    midpoint is. If none is inside, the interior of each part of a polygon is inside or outside of
+    the other as a whole, and one interior point of each decides. What chains have in common are
+    vertices and whole parts of edges: a piece C is a path in both. If an end of a chain is in C,
+    the chain does not divide its neighbourhood, and leaves C at one end at most. Else C divides
+    both, and they cross if one leaves C to different sides of the other.
     """
     reach = a._radius + b._radius
     if reach:
         return squared_distance(a, b, t) < reach * reach
-    p, q = a._at(t), b._at(t)
-    p_edges = [(p[i], p[j]) for i, j in segments_of(a)]
-    q_edges = [(q[i], q[j]) for i, j in segments_of(b)]
-    if any(_cross(e, f) for e in p_edges for f in q_edges):
+    first, second = _placed(a, t), _placed(b, t)
+    if _cross_inside(first, second):
         return True
     if not (a.has_interior or b.has_interior):
-        return _chains_cross(_cut(p_edges, q_edges), _cut(q_edges, p_edges))
-    return (a.has_interior and _enters(b, q, q_edges, p_edges)) or (
-        b.has_interior and _enters(a, p, p_edges, q_edges)
+        return _chains_cross(_cut(first.edges, second.edges), _cut(second.edges, first.edges))
+    return (a.has_interior and _enters(second, first.edges)) or (
+        b.has_interior and _enters(first, second.edges)
     )
+
+
+def _cross_inside(first: _Placed, second: _Placed) -> bool:
+    """Return True if edges of two bodies cross, and so the bodies overlap there."""
+    are_thin = not (first.body.has_interior or second.body.has_interior)
+    never_touch = not (first.pinches or second.pinches)
+    for e, f in product(first.edges, second.edges):
+        if not _cross(e, f):
+            continue
+        if are_thin or never_touch:
+            return True
+        point = crossing_of_lines(*e, *f)
+        if first.is_entered_at(point) or second.is_entered_at(point):
+            return True
+    return False
 
 
 def _cut(edges: Sequence[Segment], at: Sequence[Segment]) -> list[Point]:
@@ -86,14 +134,18 @@ def _chains_cross(p: Sequence[Point], q: Sequence[Point]) -> bool:
     return False
 
 
-def _enters(
-    body: Body, points: Sequence[Point], edges: Sequence[Segment], polygon: Sequence[Segment]
-) -> bool:
-    """Return True if a body whose edges cross none of a polygon's is inside the polygon."""
-    if any(_is_inside(middle, polygon) for edge in edges for middle in _middles(edge, polygon)):
+def _enters(placed: _Placed, polygon: Sequence[Segment]) -> bool:
+    """Return True if a part of a body is inside of a polygon, of which it crosses no edges inside.
+
+    Args:
+        placed: the body.
+        polygon: the edges of the polygon.
+    """
+    middles = (middle for edge in placed.edges for middle in _middles(edge, polygon))
+    if any(_is_inside(middle, polygon) for middle in middles):
         return True
-    return body.has_interior and any(
-        _is_inside(inner, polygon) for inner in _inner_points(body, points)
+    return placed.body.has_interior and any(
+        _is_inside(inner, polygon) for inner in _inner_points(placed.body, placed.points)
     )
 
 

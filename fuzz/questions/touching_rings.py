@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, pairwise, product
 from random import Random
-from typing import NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 from exactpt import (
     Affine,
@@ -286,6 +286,16 @@ def _radius(random: Random) -> str:
     return random.choice(["0", "0", "0", "1/2", "1/3"])
 
 
+_THROUGH_THE_MIDDLE: Final = [
+    [(0, -1), (0, 1)],
+    [(-1, 0), (1, 0)],
+    [(-1, -4), (1, 4)],
+    [(-1, 4), (0, 0), (1, 4)],
+    [(0, -4), (0, 0), (1, 4)],
+]
+"""Segments and chains that lead through a point in which rings touch, if they are put there."""
+
+
 def _thing(random: Random, around: Body) -> list[Point]:
     """Return a point, segment or polygon in a hole, at a touch, or anywhere near a body."""
     x, y = QQ(random.choice([-6, -5, 5, 6])), QQ(random.randint(-10, 10), 2)
@@ -307,6 +317,8 @@ def _thing(random: Random, around: Body) -> list[Point]:
             [(0, 0), (1, 0), (1, 1), (0, 1)],
         ]
     )
+    if kind == 0 and random.random() < 0.5:
+        shape = random.choice(_THROUGH_THE_MIDDLE)
     return [(x + half * u, y + half * v) for u, v in shape]
 
 

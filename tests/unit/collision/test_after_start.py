@@ -21,8 +21,11 @@ from exactpt import (
 from exactpt.cli import main
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import candidate_pairs
+from exactpt.pairs.overlap import overlap
+from exactpt.scene.families.rings import as_parts, touching_parts
 from exactpt.scene.generate import generate
 from fuzz.questions.renewal import first_new_contact
+from fuzz.questions.renewal import overlap as overlap_by_definition
 from fuzz.questions.tiny import pair_scene, touching_scene
 
 FLOOR = Body("floor", [(-9, -1), (19, -1), (19, 0), (-9, 0)])
@@ -39,6 +42,52 @@ def new(*bodies, time=(0, 20), **options):
     if contact is None:
         return None
     return float(contact.time), {tuple(sorted((p.body, p.other))) for p in contact.pairs}
+
+
+NOTCHED = Body("n", [(0, 0), (8, 0), (8, 8), (0, 8)], holes=[[(4, 0), (5, 2), (3, 2)]])
+"""Its hole, a triangle, touches its outline at (4, 0)."""
+
+
+@pytest.mark.parametrize(
+    "thread, velocity, expected",
+    [
+        ([(4, -1), (4, 0)], (0, 1), 2),  # in the hole from 1 on, at its upper edge at 2
+        ([(4, -1), (4, 1)], (0, 1), 1),  # then its upper end goes into the solid above the hole
+        ([(4, -1), (4, 1)], (1, 0), 0),  # it goes into the solid beside the hole at once
+        ([(4, -1), (4, 1)], (0, -1), None),  # it leaves
+        ([(4, -1), (4, 1)], (0, 0), None),
+        ([(3, -1), (5, 1)], (0, 1), None),  # it overlaps from the start to the end
+    ],
+)
+def test_a_thread_through_a_point_in_which_rings_touch_overlaps_nothing(thread, velocity, expected):
+    """It crosses the outline there, but is in the hole beyond: an open wedge of slopes over 2."""
+    body = Body("thread", thread, Translation([0, velocity[0]], [0, velocity[1]]))
+
+    found = new(NOTCHED, body, time=(0, 3))
+
+    assert found == (None if expected is None else (expected, {("n", "thread")}))
+
+
+def test_thin_bodies_through_touches_overlap_as_by_the_definition():
+    """Segments and chains through a random touch of rings, compared along vertical lines."""
+    random, overlapping = Random(5), 0
+    for _ in range(150):
+        body = Body("b", parts=as_parts(touching_parts(random, (QQ(0), QQ(0)))))
+        if not body._ring_touches:
+            continue
+        x, y = random.choice(body._ring_touches)
+        step = QQ(1, random.choice([4, 40]))
+        u, v, w, z = (step * random.randint(-3, 3) for _ in range(4))
+        ends = [(x + u, y + v), (x, y), (x + w, y + z)]
+        thin = ends if random.random() < 0.5 else [ends[0], (x - u, y - v)]
+        if len(set(thin)) < len(thin) or u * z == v * w:
+            continue
+        thread = Body("thread", thin, closed=False)
+
+        assert overlap(body, thread, QQ(0)) == overlap_by_definition(body, thread, QQ(0))
+        assert overlap(thread, body, QQ(0)) == overlap(body, thread, QQ(0))
+        overlapping += overlap(body, thread, QQ(0))
+    assert overlapping > 20
 
 
 def test_a_stack_that_rests_is_in_no_new_contact():
