@@ -23,6 +23,17 @@ def twin(h: HalfEdge) -> HalfEdge:
     return h ^ 1  # type: ignore[return-value]  # a cast would be one more call
 
 
+def found(half_edges: Iterable[HalfEdge], what: str) -> HalfEdge:
+    """Return the first of some half-edges, of which a map that is whole has one.
+
+    Raises:
+        AuditError: if there is none. A bare ``next`` would end a generator around it.
+    """
+    for h in half_edges:
+        return h
+    raise AuditError(f"there is no {what}")
+
+
 @final
 class PlanarMap:
     """Half-edges in parallel vectors; a handle is an index.

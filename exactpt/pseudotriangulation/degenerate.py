@@ -15,7 +15,7 @@ from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge, Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertex import Vertex
-from exactpt.planar.halfedge import twin
+from exactpt.planar.halfedge import found, twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, Mesh
 
 
@@ -87,7 +87,8 @@ def _collapse(mesh: Mesh, h: HalfEdge, instant: PredicatesAt) -> list[HalfEdge]:
     before, face = m.previous[h], m.face(h)
     if len(face) == 3:
         middle = instant.middle(a, p, b)
-        edge = next(g for g in face if middle not in mesh.ends(g))
+        opposite = (g for g in face if middle not in mesh.ends(g))
+        edge = found(opposite, "edge opposite of the vertex in the middle")
     else:
         origin_moves = instant.nearer(p, a, b)
         edge = h if origin_moves else before

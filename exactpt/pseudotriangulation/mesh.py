@@ -294,6 +294,10 @@ class Mesh:
         self.corner, self.boundary = vec[bool](map(bool, corner)), vec[bool](map(bool, boundary))
         ring_edge = state["ring_edge"].integers(int(NO_HALF_EDGE), count - 1, length=vertices)
         self.ring_edge = half_edge_vec(cast("list[HalfEdge]", ring_edge))
+        on_rings = {h >> 1 for h in ring_edge if h != NO_HALF_EDGE}
+        for edge, is_marked in enumerate(boundary):
+            if origin[2 * edge] >= 0 and is_marked != (edge in on_rings):
+                raise state["boundary"].refused(f"1 for the edges of bodies alone (edge {edge})")
 
     def labelling(self) -> list[frozenset[int]]:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""

@@ -18,7 +18,7 @@ from librt.vecs import extend
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, Triple, VertexId
-from exactpt.planar.halfedge import twin
+from exactpt.planar.halfedge import found, twin
 from exactpt.pseudotriangulation.build import star_order
 from exactpt.pseudotriangulation.mesh import FREE, OUTER, SOLID, Mesh
 from exactpt.pseudotriangulation.plane_sweep import Sweep, SweptEdge
@@ -162,7 +162,8 @@ class Region:
         for v, edges in new.items():
             # Counter-clockwise, as in `build_mesh`: the body first, then free space.
             star = m.star(mesh.ring_edge[v])
-            k = next(i for i, h in enumerate(star) if i and mesh.is_boundary(h))
+            last = found(filter(mesh.is_boundary, star[1:]), "second edge of a body at a vertex")
+            k = star.index(last)
             free, key = star[k + 1 :], cmp_to_key(star_order(predicates, mesh, v, star[k]))
             for h in edges:
                 insort(free, h, key=key)

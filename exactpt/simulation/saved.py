@@ -110,6 +110,8 @@ def tiling_from_json(data: Stored, bodies: Sequence[Body], last: QQ, *, exact_on
         certificate = CertificateId(slot.integer(0))
         if not kinetic.has_part(certificate):
             raise slot.refused("a certificate of this tiling")
+        if kinetic.queue.pending(certificate) is not None:
+            raise slot.refused("a certificate that is in the queue once")
         kinetic.queue.schedule(certificate, _time_from_json(time, vertices))
     return kinetic
 

@@ -19,7 +19,7 @@ from exactpt.certificates.coincidence import nearer, nearer_copy, strictly_betwe
 from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge, Triple
-from exactpt.planar.halfedge import twin
+from exactpt.planar.halfedge import found, twin
 from exactpt.pseudotriangulation.audit import audit_star
 from exactpt.pseudotriangulation.mesh import OUTER
 from exactpt.tiling.angles import CertifiedMesh
@@ -133,7 +133,8 @@ class Repairs:
                 break
         else:
             raise RebuildNeeded
-        edge = next(g for g in mesh.map.face(h) if middle.id not in mesh.ends(g))
+        opposite = (g for g in mesh.map.face(h) if middle.id not in mesh.ends(g))
+        edge = found(opposite, "edge opposite of the vertex in the middle")
         if mesh.is_boundary(edge):
             raise RebuildNeeded
         across = mesh.map.face(twin(edge))

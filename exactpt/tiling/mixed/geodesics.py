@@ -22,7 +22,7 @@ from typing import Final, NamedTuple, final
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
-from exactpt.planar.halfedge import twin, without_steps_back
+from exactpt.planar.halfedge import found, twin, without_steps_back
 from exactpt.pseudotriangulation.mesh import Mesh
 
 LEFT: Final = 1
@@ -133,11 +133,12 @@ class Geodesics:
                 p = v
         if p == NO_VERTEX:
             return []
-        bridge = next(
+        leftwards = (
             h
             for h in m.star(self._mesh.ring_edge[p])
             if m.target(h) in origins and self._predicates.left_of(m.target(h), p)
         )
+        bridge = found(leftwards, "bridge to the left")
         first = origins[m.target(bridge)]
         return [bridge, *ring[first:], *ring[:first], twin(bridge)]
 
@@ -202,7 +203,8 @@ class Geodesics:
         portals = []
         for t, u in pairwise(sleeve):
             around = m.face(u)
-            h = next(h for h in m.face(t) if h ^ 1 in around)
+            shared = (h for h in m.face(t) if h ^ 1 in around)
+            h = found(shared, "edge between two triangles of a sleeve")
             portals.append((m.target(h), m.origin[h]))
         return portals
 

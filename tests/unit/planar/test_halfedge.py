@@ -4,7 +4,7 @@ import pytest
 
 from exactpt.errors import AuditError
 from exactpt.indices import NO_VERTEX
-from exactpt.planar.halfedge import PlanarMap
+from exactpt.planar.halfedge import PlanarMap, found
 
 
 def polygon(n):
@@ -161,3 +161,10 @@ def test_bug_walks_of_a_forged_map_end():
     m.previous[3] = m.previous[7]
     with pytest.raises(AuditError, match="return elsewhere"):
         list(map(m.star, m.half_edges()))
+
+
+def test_found_half_edge_that_is_missing_is_a_broken_map():
+    """Not a StopIteration, which ends the generator around it, or makes it a RuntimeError."""
+    assert found(iter([4, 6]), "edge") == 4
+    with pytest.raises(AuditError, match="there is no edge"):
+        next(found([], "edge") for _ in range(2))

@@ -418,3 +418,23 @@ def test_the_size_of_a_file_is_bounded(tmp_path):
 
     with pytest.raises(InputError, match="more than 100 bytes"):
         Simulation.restore(tmp_path / "run.json", max_bytes=100)
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
+def test_each_mark_of_an_edge_is_that_of_the_rings(tmp_path, tiling):
+    """A diagonal taken for the edge of a body, or an edge for a diagonal, gave other events."""
+    data = without_seal(Simulation(generate("convex", 2), tiling=tiling).to_json())
+    mesh = data["state"]["mesh"]
+    for edge, is_marked in enumerate(mesh["boundary"]):
+        if mesh["origin"][2 * edge] >= 0:
+            forged = changed(data, ("state", "mesh", "boundary", edge), 1 - is_marked)
+            assert_refused(tmp_path, forged, r'"boundary": expected 1 for the edges of bodies')
+
+
+def test_a_certificate_that_is_twice_in_the_queue_is_refused(tmp_path):
+    """One of them replaced the other; the part that lost its certificate failed unseen."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    (first, _), *_ = data["state"]["queue"]
+    forged = changed(data, ("state", "queue", 1, 0), first)
+
+    assert_refused(tmp_path, forged, r'"queue"\[1\]\[0\]: expected a certificate that is in the')
