@@ -291,7 +291,9 @@ def _keeps_name(name: str, number: int, kind: Format) -> bool:
     """Return True if a format gives the name of a body back, by its number in the file."""
     if kind == "wkt":
         return name == f"body {number}"
-    return kind != "svg" or valid_text(name) == name
+    if kind == "svg":
+        return valid_text(name) == name
+    return geojson.name_of({"properties": {"name": name}}) == name
 
 
 def _moves(body: Body) -> bool:

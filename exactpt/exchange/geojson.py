@@ -197,27 +197,36 @@ def _data_with_dates(feature: dict[str, Json]) -> list[dict[str, Json]]:
 
 
 def _check_dates(holders: Sequence[dict[str, Json]], geometry: Json, where: str) -> None:
-    """Refuse a geometry at rest that has a date for each of its positions: it moves.
+    """Refuse a geometry at rest that has a date for each of its positions: it moves."""
+    key = _dates_of_positions(holders, geometry)
+    if key is not None:
+        raise InputError(
+            f"{where}: {shorten(key)} has a date for each position, and would be at rest: a "
+            f'trajectory is a LineString with the property "{_DATES}"'
+        )
+
+
+def _dates_of_positions(holders: Sequence[dict[str, Json]], geometry: Json) -> str | None:
+    """Return the member that has a date for each position of a geometry; None if there is none.
 
     A line string with ``datetimes`` is read as a trajectory, see `exactpt.exchange.mfjson`. Other
     programs have the dates elsewhere: in other properties, in an object that is a property, beside
     the geometry, or within it.
     """
     if not isinstance(geometry, dict):
-        return
+        return None
     if geometry.get("type") == "GeometryCollection":
         inner = geometry.get("geometries")
-        for one in inner if isinstance(inner, list) else ():
-            _check_dates(holders, one, where)
-        return
+        found = (
+            _dates_of_positions(holders, one) for one in (inner if isinstance(inner, list) else ())
+        )
+        return next((key for key in found if key is not None), None)
     if geometry.get("type") not in ("LineString", "MultiLineString", "MultiPoint"):
-        return
+        return None
     for key, dates in chain.from_iterable(data.items() for data in holders):
         if _dates_each(dates, geometry.get("coordinates"), numbers=key.lower() == _DATES):
-            raise InputError(
-                f"{where}: {shorten(key)} has a date for each position, and would be at rest: a "
-                f'trajectory is a LineString with the property "{_DATES}"'
-            )
+            return key
+    return None
 
 
 def _dates_each(dates: Json, coordinates: Json, *, numbers: bool) -> bool:
@@ -285,15 +294,21 @@ def features_of(
 
 
 def _members_in(properties: dict[str, object]) -> dict[str, object]:
-    """Take the members of a feature out of its properties, see `FEATURE_MEMBERS`."""
+    """Take the members of a feature out of its properties, see `FEATURE_MEMBERS`.
+
+    A property of that name with another content is the caller's own, and stays one.
+    """
     places = properties.get(FEATURE_MEMBERS)
-    found: dict[str, object] = {}
-    if isinstance(places, Mapping):
-        del properties[FEATURE_MEMBERS]
-        for member, key in places.items():
-            if key in properties and member not in _OF_FEATURE:
-                found[str(member)] = properties.pop(key)
-    return found
+    if not isinstance(places, Mapping) or not all(
+        isinstance(key, str)
+        and key in properties
+        and isinstance(member, str)
+        and member not in {*_OF_FEATURE, *_MEANINGFUL}
+        for member, key in places.items()
+    ):
+        return {}
+    del properties[FEATURE_MEMBERS]
+    return {member: properties.pop(key) for member, key in places.items()}
 
 
 def geometry_shapes(
@@ -378,7 +393,24 @@ def geojson_of(shapes: Sequence[Shape]) -> str:
             features_of((shape.name, shape.properties) for shape in shapes), shapes, strict=True
         )
     ]
+    for feature, shape in zip(features, shapes, strict=True):
+        if shape.kind == "line" and shape.properties:
+            _check_rest(feature, shape.name)
     return json.dumps({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
+
+
+def _check_rest(feature: dict[str, object], name: str) -> None:
+    """Refuse a line at rest that readers take for a track, because its properties are dates."""
+    data = parse_json(json.dumps(feature))
+    if not isinstance(data, dict):
+        raise TypeError(feature)
+    holders, geometry = _data_with_dates(data), data["geometry"]
+    key = _DATES if _DATES in holders[1] else _dates_of_positions(holders, geometry)
+    if key is not None:
+        raise InputError(
+            f"body {shorten(name)}: with the property {shorten(key)} this line would be read as a "
+            "point that moves: rename the property"
+        )
 
 
 def geometry_of(shape: Shape) -> dict[str, object]:

@@ -324,3 +324,39 @@ def test_a_number_as_a_name_is_refused_with_the_text_to_write():
 
     with pytest.raises(InputError, match='"name": expected a text, got 211042114; write "2110421'):
         Scene.from_json({"exactpt": 1, "time": [0, 1], "bodies": [body]})
+
+
+@every("key, dates", [("datetimes", DATES), ("datetimes", []), ("times", DATES)])
+def test_line_at_rest_whose_properties_would_make_it_move_is_not_written(tmp_path, key, dates):
+    """A LineString with ``datetimes`` is a point that moves along it: a wire came back as one."""
+    wire = Body("wire", [(0, 0), (1, 1)], properties={key: dates})
+
+    with pytest.raises(InputError, match=f"body 'wire': with the property '{key}' this line would"):
+        write_shapes(Scene([wire]), tmp_path / "out.geojson")
+    assert not (tmp_path / "out.geojson").exists()
+
+
+@every(
+    "given",
+    [
+        {"feature_members": 3},
+        {"feature_members": {"x": "missing"}},
+        {"feature_members": {"geometry": "g"}, "g": 1},
+        {"feature_members": {"features": "g", "id": "h"}, "g": 1, "h": 2},
+    ],
+)
+def test_property_with_a_reserved_name_and_another_content_stays(tmp_path, given):
+    """It vanished without a word, or wrote a member that readers refuse."""
+    write_shapes(Scene([Body("b", [(0, 0)], properties=given)]), tmp_path / "out.geojson")
+
+    (body,) = read_shapes(tmp_path / "out.geojson").bodies
+    assert body.properties == {"name": "b", **given}
+
+
+def test_name_that_a_file_does_not_give_back_is_lost(tmp_path):
+    """A name of spaces alone is no name to readers, who take the number of the feature."""
+    scene = Scene([Body("  ", [(0, 0)])])
+
+    for ending in ("geojson", "mfjson"):
+        with pytest.raises(InputError, match="lost: name of 1 body"):
+            write_shapes(scene, tmp_path / f"out.{ending}", strict=True)
