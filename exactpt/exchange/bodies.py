@@ -179,7 +179,7 @@ def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
     kind: Kind = "polygon" if is_polygon else shape.kind
     if len(points) < _FEWEST[kind] or (is_polygon and are_collinear(points)):
         lacks = {"point": "position", "line": "length", "polygon": "area"}[kind]
-        fault = f"{kind} {shorten(shape.name)} has no {lacks}"
+        fault = f"{kind} {shorten(shape.name)} {f'has no {lacks}' if ring else 'is empty'}"
         remedy = "remove it"
         if ring is not shape.points:
             fault, remedy = f"a hole of {fault}", "mend it (--repair)"

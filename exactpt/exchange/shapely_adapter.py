@@ -118,9 +118,13 @@ def shapes_of_geometry(
     if not isinstance(geometry, BaseGeometry):
         raise InputError(f"{where}: not a shapely geometry: {shorten(geometry)}")
     if points is None:
-        points = [
-            (rational(float(x)), rational(float(y))) for x, y in shapely.get_coordinates(geometry)
-        ]
+        try:
+            points = [
+                (rational(float(x)), rational(float(y)))
+                for x, y in shapely.get_coordinates(geometry)
+            ]
+        except InputError as error:
+            raise InputError(f"{where} ({shorten(name)[1:-1]}): {error}") from None
     left, count = iter(points), 0
     for unit in _units(geometry):
         shapes: list[Shape] = []
@@ -131,9 +135,8 @@ def shapes_of_geometry(
             shapes.append(Shape(at, name, _KINDS[part.geom_type], taken[0], taken[1:]))
             count += 1
         yield from together(shapes)
-    kind = _KINDS.get(geometry.geom_type.removeprefix("Multi"))
-    if count == 0 and kind is not None:
-        yield Shape(where, name, kind, ())
+    if count == 0:
+        yield Shape(where, name, _KINDS.get(geometry.geom_type.removeprefix("Multi"), "point"), ())
 
 
 def _units(geometry: BaseGeometry) -> Iterator[list[BaseGeometry]]:
@@ -164,8 +167,13 @@ def scene_from(
     holes: Holes,
     parts: Parts,
     radius: Rational,
+    *,
+    repair: bool,
+    skip_invalid: bool,
 ) -> Scene:
     """Return the scene at rest of geometries, see `Scene.from_shapely`."""
+    if isinstance(geometries, BaseGeometry):
+        raise InputError(f"geometries: not a list, but one geometry: {shorten(geometries)}")
     if isinstance(geometries, Mapping):
         named = [(str(name), geometry) for name, geometry in geometries.items()]
     else:
@@ -175,9 +183,21 @@ def scene_from(
         for i, (name, geometry) in enumerate(named)
         for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
     )
-    scene = scene_of(shapes, time=time, holes=holes, parts=parts, radius=radius)
+    scene = scene_of(
+        shapes,
+        time=time,
+        holes=holes,
+        parts=parts,
+        radius=radius,
+        repaired=_silent if repair else None,
+        skipped=_silent if skip_invalid else None,
+    )
     scene.lost = _lost_of(geometry for _, geometry in named)
     return scene
+
+
+def _silent(_message: str) -> None:
+    """Say nothing about a geometry that is repaired or left out, as the caller has asked."""
 
 
 def _lost_of(geometries: Iterable[object]) -> tuple[str, ...]:

@@ -245,6 +245,8 @@ class Scene:
         holes: Literal["keep", "refuse", "fill"] = "keep",
         parts: Literal["keep", "split"] = "keep",
         radius: Rational = 0,
+        repair: bool = False,
+        skip_invalid: bool = False,
     ) -> Scene:
         """Return the scene of shapely geometries, at rest.
 
@@ -262,11 +264,17 @@ class Scene:
             holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
             parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
             radius: the radius of each body.
+            repair: whether a polygon that is not valid is replaced by the polygons that its rings
+                fill, exactly (see `exactpt.read_shapes`).
+            skip_invalid: whether a geometry that cannot be a body is left out; else it is an error.
 
         Raises:
             InputError: if a geometry cannot be a body (see `exactpt.read_shapes`).
         """
-        scene: Scene = extension("scene from shapely")(geometries, time, holes, parts, radius)
+        convert = extension("scene from shapely")
+        scene: Scene = convert(
+            geometries, time, holes, parts, radius, repair=repair, skip_invalid=skip_invalid
+        )
         return scene
 
     def to_shapely(

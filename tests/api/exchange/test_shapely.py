@@ -224,3 +224,29 @@ def test_damaged_files(ending, text, seed, tmp_path):
             refused.append(str(error))
     assert refused
     assert [line for line in refused if "\n" in line or not line.startswith(str(file))] == []
+
+
+def test_geometry_that_is_empty_is_refused_or_left_out():
+    """An empty collection vanished without a word."""
+    given = {"a": shapely.GeometryCollection(), "b": shapely.Point(1, 2)}
+
+    with pytest.raises(InputError, match="geometry 0: point 'a' is empty: remove it"):
+        Scene.from_shapely(given)
+    assert [body.name for body in Scene.from_shapely(given, skip_invalid=True).bodies] == ["b"]
+
+
+def test_polygon_that_crosses_itself_is_repaired_on_request():
+    """Two triangles of base 4 and height 2: the area is 8."""
+    tie = shapely.Polygon([(0, 0), (4, 4), (4, 0), (0, 4)])
+
+    (body,) = Scene.from_shapely({"tie": tie}, repair=True).bodies
+
+    assert len(body.parts) == 2
+    assert Scene([body]).to_shapely(0)["tie"].area == 8
+
+
+def test_one_geometry_and_coordinates_that_are_no_numbers_are_named():
+    with pytest.raises(InputError, match="geometries: not a list, but one geometry"):
+        Scene.from_shapely(shapely.Point(1, 2))
+    with pytest.raises(InputError, match=r"geometry 0 \(a\): not a finite number: nan"):
+        Scene.from_shapely({"a": shapely.Point(math.nan, 1)})

@@ -71,10 +71,10 @@ def test_holes_keep_their_own_points():
 @every(
     "text, message",
     [
-        ("POINT EMPTY", "geometry 0: point 'body 0' has no position"),
-        ("MULTIPOLYGON EMPTY", "geometry 0: polygon 'body 0' has no area"),
-        ("POINT (1 2)\nMULTIPOINT EMPTY", "geometry 1: point 'body 1' has no position"),
-        ("POINT (1 2)\nPOLYGON EMPTY", "geometry 1: polygon 'body 1' has no area"),
+        ("POINT EMPTY", "geometry 0: point 'body 0' is empty"),
+        ("MULTIPOLYGON EMPTY", "geometry 0: polygon 'body 0' is empty"),
+        ("POINT (1 2)\nMULTIPOINT EMPTY", "geometry 1: point 'body 1' is empty"),
+        ("POINT (1 2)\nPOLYGON EMPTY", "geometry 1: polygon 'body 1' is empty"),
         ("POINT (1 2)\nCIRCLE (3)", "geometry 1: not well-known text: Unknown type: 'CIRCLE'"),
         ("POLYGON ((0 0, 1 1))", "not well-known text: .*LinearRing"),
         ("LINESTRING (1 2)", "not well-known text: point array"),
