@@ -233,28 +233,34 @@ def write_shapes(
     """
     file = Path(path)
     kind = _format(file)
-    if strict:
-        try:
+    try:
+        if strict:
             check_strict(lost_by_writing(scene, file, at))
-        except InputError as error:
-            raise InputError(f"{file}: {error}") from None
-    if kind == "scene":
-        if at is not None:
-            raise InputError(f"{file}: a scene has all times: leave the time away")
+        if at is not None and kind in ("scene", "mfjson"):
+            what = "a scene has" if kind == "scene" else "moving features have"
+            raise InputError(f"{what} all times: leave the time away")
+        text = None if kind == "scene" else _text_of(scene, kind, at, tolerance)
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+    if text is None:
         save(scene, file)
-        return
+    else:
+        write_atomically(file, text)
+
+
+def _text_of(
+    scene: Scene, kind: Format, at: Rational | AlgebraicNumber | None, tolerance: float | None
+) -> str:
+    """Return the text of a file of shapes, or of moving features, see `write_shapes`."""
     if kind == "mfjson":
-        if at is not None:
-            raise InputError(f"{file}: moving features have all times: leave the time away")
-        write_atomically(file, mfjson.mfjson_of(scene))
-        return
+        return mfjson.mfjson_of(scene)
     shapes = shapes_at(scene, scene._start if at is None else at)
     if scene.has_radius:
         from exactpt.exchange.shapely_adapter import outlined
 
         shapes = [outlined(shape, tolerance) for shape in shapes]
     writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
-    write_atomically(file, writers[kind](shapes))
+    return writers[kind](shapes)
 
 
 def lost_by_writing(

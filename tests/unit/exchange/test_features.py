@@ -197,7 +197,7 @@ def test_a_number_beyond_doubles_stays_a_text(tmp_path):
 @pytest.mark.parametrize("value", [math.inf, {1, 2}, object()])
 def test_properties_that_json_does_not_have(tmp_path, value):
     for name in ("a.geojson", "a.mfjson"):
-        with pytest.raises(InputError, match=r"^body 'a': properties: [^\n]+$"):
+        with pytest.raises(InputError, match=rf"{name}: body 'a': properties: [^\n]+$"):
             exactpt.write_shapes(
                 Scene([Body("a", [(0, 0)], properties={"x": value})]), tmp_path / name
             )

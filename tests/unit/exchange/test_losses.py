@@ -360,3 +360,16 @@ def test_name_that_a_file_does_not_give_back_is_lost(tmp_path):
     for ending in ("geojson", "mfjson"):
         with pytest.raises(InputError, match="lost: name of 1 body"):
             write_shapes(scene, tmp_path / f"out.{ending}", strict=True)
+
+
+def test_scene_that_a_format_cannot_hold_is_refused_with_the_file(tmp_path):
+    disc = Scene([Body("disc", [(0, 0)], radius=1)])
+
+    for file, at, message in (
+        ("out.mfjson", None, r"out\.mfjson: body 'disc': moving features have no radius"),
+        ("out.wkt", 9, r"out\.wkt: t = 9 is outside the time span from 0 to 1$"),
+        ("out.json", 0, r"out\.json: a scene has all times"),
+    ):
+        with pytest.raises(InputError, match=message):
+            write_shapes(disc, tmp_path / file, at)
+        assert not (tmp_path / file).exists()
