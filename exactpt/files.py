@@ -13,8 +13,8 @@ from numbers import Integral
 from pathlib import Path
 from typing import BinaryIO, Final
 
+from exactpt.brief import in_brief
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import shorten
 
 if sys.platform == "win32":
     import msvcrt
@@ -48,7 +48,7 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
     """
     limit = MAX_BYTES if most is None else most
     if not isinstance(limit, Integral) or limit < 0:
-        raise InputError(f"max_bytes: not a number of bytes: {shorten(limit)}")
+        raise InputError(f"max_bytes: not a number of bytes: {in_brief(limit)}")
     content = io.BytesIO()
     try:
         with path.open("rb") as file:
