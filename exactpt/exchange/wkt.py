@@ -22,7 +22,8 @@ _NEXT: Final = re.compile(r"(?:(?<=\))|(?<=EMPTY))[\s;]+(?=[A-Z])", re.IGNORECAS
 _PARENTHESIS: Final = re.compile(r"[()]")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 
-
+_NOTHING: Final = "GEOMETRYCOLLECTION EMPTY"
+"""The text of a scene without bodies: well-known text has no other way to write nothing."""
 _SRID: Final = re.compile(r"\s*SRID\s*=\s*(\d{1,9})\s*;", re.IGNORECASE | re.ASCII)
 """The number of a coordinate reference system before a geometry."""
 
@@ -39,6 +40,8 @@ def shapes_of(text: str, losses: Losses | None = None) -> Iterator[Shape]:
     """
     from exactpt.exchange.shapely_adapter import read_wkt, shapes_of_geometry
 
+    if text.strip().upper() == _NOTHING:
+        return
     left_out = losses or Losses()
     for i, whole in enumerate(_NEXT.split(text.strip())):
         where = f"geometry {i}"
@@ -71,7 +74,7 @@ def _depth(text: str) -> int:
 
 def wkt_of(shapes: Iterable[Shape]) -> str:
     """Shapes, one per line, without names; coordinates are the nearest doubles."""
-    return "".join(f"{_text(shape)}\n" for shape in shapes) or "GEOMETRYCOLLECTION EMPTY\n"
+    return "".join(f"{_text(shape)}\n" for shape in shapes) or f"{_NOTHING}\n"
 
 
 def _text(shape: Shape) -> str:
