@@ -108,7 +108,7 @@ def copy(tmp_path):
     """A checkout of a few modules, in git, with the list that setup.py writes."""
     package = tmp_path / "exactpt"
     package.mkdir()
-    for name in ("__init__", "__main__", "compiled", "extensions", "indices"):
+    for name in ("__init__", "__main__", "compiled", "extensions", "indices", "interpreters"):
         shutil.copy2(PACKAGE / f"{name}.py", package)
     git(tmp_path, "init", "--quiet")
     commit(tmp_path)
