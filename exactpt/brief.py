@@ -81,7 +81,7 @@ class _Brief(Repr):
         """Return the ``repr`` of another value in one line, cut."""
         try:
             text = repr(x)
-        except Exception:
+        except Exception:  # the class of a caller may fail in any way
             text = object.__repr__(x)
         return cut(" ".join(text.splitlines()), max(self.maxother, _LAST + 4))
 

@@ -374,8 +374,7 @@ _ELEMENTS: Final = [
     _Member("switch", '<switch><g requiredExtensions="a"><path d="M0 0h9"/></g></switch>', "read"),
     _Member("style", "<style>.hidden {display: none}</style>"
             '<rect class="hidden" width="9" height="9"/>', "read"),
-    _Member("g &gt; rect".replace("&gt;", ">"),
-            "<style>g &gt; rect {display: none}</style>", "refused"),
+    _Member("g > rect", "<style>g &gt; rect {display: none}</style>", "refused"),
     _Member("@import", "<style>@import url(a.css);</style>", "refused"),
     _Member("use", '<use href="#nowhere"/>', "refused"),
     _Member("animateTransform", '<animateTransform type="rotate" to="9"/>', "refused"),

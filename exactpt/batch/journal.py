@@ -150,7 +150,7 @@ class Journal:
         end = self._read_records(len(own))
         if not os.path.lexists(self._part_path):
             if self.records:
-                raise InputError(f"{self._part_path}: answers of the journal are missing")
+                raise InputError(f"{self._part_path}: results of the journal are missing")
             self._part = opened.enter_context(create(self._part_path, own))
         else:
             with open_regular(self._part_path, writable=False) as file:
@@ -260,7 +260,7 @@ class Journal:
         size = os.fstat(file.fileno()).st_size
         for record in sorted(self.records.values(), key=lambda record: record.at):
             if record.at + record.size > size:
-                raise InputError(f"{path}: answers of the journal are missing")
+                raise InputError(f"{path}: results of the journal are missing")
             if _digest_of_next(file, record) != record.results:
                 raise self._changed(record)
         stop = file.tell()
