@@ -440,8 +440,8 @@ PLANTED: Final[dict[str, Mistake]] = {
         lambda: _edited(
             track,
             "vertex_touch",
-            "Touch(other, other_vertex, body, -1, vertex)",
-            "Touch(other, vertex, body, -1, other_vertex)",
+            "Incidence(other, other_vertex, body, -1, vertex)",
+            "Incidence(other, vertex, body, -1, other_vertex)",
         ),
     ),
     "places at the start off by less": Mistake(

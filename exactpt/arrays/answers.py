@@ -9,7 +9,7 @@ import numpy as np
 
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -41,7 +41,7 @@ def record_overlaps(contacts: Contacts, pairs: Indices, start: Floats) -> None:
 
 
 def record(
-    contacts: Contacts, i: int, time: AlgebraicNumber | None, touches: Sequence[Touch],
+    contacts: Contacts, i: int, time: AlgebraicNumber | None, touches: Sequence[Incidence],
     *, initial: bool,
 ) -> None:  # fmt: skip
     """Record a pair decided exactly; no contact if the time is None."""

@@ -15,7 +15,7 @@ from exactpt.geometry.ragged import spread
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, U
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.rational import Candidate
 
 
@@ -93,7 +93,7 @@ class Candidates(NamedTuple):
         """Return their records, with bounds of their times; features by number in their bodies."""
         columns = (low, high, self.second, *self.numbered(o, *self.bodies(i, j)))
         rows = zip(*(column.tolist() for column in columns), strict=True)
-        return [Candidate(a, b, Touch(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
+        return [Candidate(a, b, Incidence(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
 
     def bodies(self, i: Indices, j: Indices) -> tuple[Indices, Indices]:
         """Return the bodies of the vertices and those of the edges, of pairs (i, j) of bodies."""

@@ -22,7 +22,7 @@ from exactpt.kernel.doubles import Floats, Indices, doubles, finite_rows
 from exactpt.kernel.numbers import QQ, of_double, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
-from exactpt.motion.track import Touch, coincide, lies_on, translated
+from exactpt.motion.track import Incidence, coincide, lies_on, translated
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene
@@ -218,19 +218,19 @@ def _decide(contacts: Contacts, i: int, row: Floats, spans: Spans) -> None:
     begin = AlgebraicNumber(start)
     if coincide(a, b, begin):
         raise InputError(f"query {i}: the segment is a point at the start, t = {show(start)}")
-    first: Earliest[Touch] = Earliest()
-    shrunk = FeaturePair(Touch(1, 0, 1, -1, 1), a, (b,))
+    first: Earliest[Incidence] = Earliest()
+    shrunk = FeaturePair(Incidence(1, 0, 1, -1, 1), a, (b,))
     if lies_on(p, a, b, begin):
         first.add(begin, ())
     else:
-        for pair in (FeaturePair(Touch(0, 0, 1, 0, -1), p, (a, b)), shrunk):
+        for pair in (FeaturePair(Incidence(0, 0, 1, 0, -1), p, (a, b)), shrunk):
             time = pair.first_time(QQ(0), begin, end)
             if time is not None:
                 first.add(time, ())
     time, touches = first.number, []
     if time is not None and lies_on(p, a, b, time):
-        ends = [Touch(0, 0, 1, -1, k) for k, c in enumerate((a, b)) if coincide(p, c, time)]
-        touches += ends or [Touch(0, 0, 1, 0, -1)]
+        ends = [Incidence(0, 0, 1, -1, k) for k, c in enumerate((a, b)) if coincide(p, c, time)]
+        touches += ends or [Incidence(0, 0, 1, 0, -1)]
     if time is not None and coincide(a, b, time):
         touches.append(shrunk.touch)
     record(contacts, i, time, touches, initial=time is begin)

@@ -16,7 +16,7 @@ from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
 from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
@@ -140,6 +140,6 @@ def _contact(scene: TwoBodies, contacts: Contacts, k: int) -> Answer | None:
     side, vertex, edge = int(contacts.body[k]), int(contacts.vertex[k]), int(contacts.edge[k])
     if is_linear(scene):
         return {"contact": linear_contact(scene, side, vertex, edge)}
-    touch = Touch(side, vertex, 1 - side, edge, -1)
+    touch = Incidence(side, vertex, 1 - side, edge, -1)
     times = float(contacts.low[k]), float(contacts.high[k])
     return {"contact": contact_between(contacts.scene(k), touch, *times)}

@@ -10,7 +10,7 @@ from exactpt.batch.two_bodies import Moving, Raw, TwoBodies, exact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, finite, nearest_float, of_double
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.contact import contact_of
 from exactpt.pairs.features import FeaturePair
 from exactpt.scene.scene import Scene
@@ -74,7 +74,7 @@ def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> Answe
     }
 
 
-def contact_between(scene: Scene, touch: Touch, low: float, high: float) -> Answer | None:
+def contact_between(scene: Scene, touch: Incidence, low: float, high: float) -> Answer | None:
     """Return the contact of a vertex with the inside of an edge, as JSON; None after the span.
 
     Args:

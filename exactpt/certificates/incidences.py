@@ -50,7 +50,7 @@ import numpy as np
 from exactpt.certificates.coincidence import boxes_now, coincide, lies_on
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
 from exactpt.indices import VertexId
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
@@ -65,7 +65,7 @@ _Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 
 def touches(
     certifier: Certifier, vertices: Vertices, candidates: Iterable[VertexId]
-) -> list[Touch]:
+) -> list[Incidence]:
     """Return all touches now among these vertices and the body edges between them, in order.
 
     Two coinciding vertices count once, and not also as vertices on the edges that end there.
@@ -78,11 +78,11 @@ def touches(
     points = [chosen[key] for key in sorted(chosen)]
     edges = [(a, *e) for a in points for e in _edges(vertices, chosen, a)]
     boxes = boxes_now(certifier, points) if len(points) > FEW else None
-    found: set[Touch] = set()
+    found: set[Incidence] = set()
     meeting: set[tuple[int, int, int, int]] = set()
     for a, b in _pairs(points, boxes):
         if coincide(certifier, a, b):
-            found.add(Touch(a.body, a.index, b.body, -1, b.index))
+            found.add(Incidence(a.body, a.index, b.body, -1, b.index))
             meeting.add((a.body, a.index, b.body, b.index))
             meeting.add((b.body, b.index, a.body, a.index))
     for v, (a, edge, b) in _near(points, edges, boxes):
@@ -93,7 +93,7 @@ def touches(
         if (v.body, v.index, b.body, b.index) in meeting:
             continue
         if lies_on(certifier, v, a, b):
-            found.add(Touch(v.body, v.index, a.body, edge, -1))
+            found.add(Incidence(v.body, v.index, a.body, edge, -1))
     return sorted(found)
 
 

@@ -23,7 +23,7 @@ from exactpt.tiling.start import TilingPlan, plan_tiling
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
-    from exactpt.motion.track import Touch
+    from exactpt.motion.track import Incidence
     from exactpt.tiling.tiling import Tiling
 
 NOTHING: Final = 0
@@ -70,7 +70,7 @@ class Observer:
     def on_end(self, tiling: Tiling) -> None:
         """Process the end of a run without another event, which is now."""
 
-    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+    def on_contact(self, tiling: Tiling, touches: Sequence[Incidence]) -> None:
         """Process a contact now, which ends the run; the tiling is the one just before."""
 
     def on_change(self, t: QQ) -> None:
@@ -142,7 +142,7 @@ class Driver:
         self.observers = list(observers)
         self.budget = Budget(None, None) if budget is None else budget
         self.since: QQ | None = None if self.tiled.tiling is None else self.tiled.scene._start
-        self.touches: Sequence[Touch] | None = None
+        self.touches: Sequence[Incidence] | None = None
         self.overlaps: Sequence[tuple[int, int]] = ()
         self.is_broken = False
 

@@ -157,7 +157,7 @@ def _lcm(a: ZZ, b: ZZ) -> ZZ:
 # Incidences
 
 
-class Touch(NamedTuple):
+class Incidence(NamedTuple):
     """A vertex on an edge, or on a vertex, numbered as in the scene.
 
     Attributes:
@@ -174,18 +174,18 @@ class Touch(NamedTuple):
     other_vertex: int
 
 
-def vertex_touch(body: int, vertex: int, other: int, other_vertex: int) -> Touch:
+def vertex_touch(body: int, vertex: int, other: int, other_vertex: int) -> Incidence:
     """Return the incidence of two vertices, that of the lower body first."""
     if other < body:
-        return Touch(other, other_vertex, body, -1, vertex)
-    return Touch(body, vertex, other, -1, other_vertex)
+        return Incidence(other, other_vertex, body, -1, vertex)
+    return Incidence(body, vertex, other, -1, other_vertex)
 
 
-def renumbered(touches: Iterable[Touch], first: int, second: int) -> set[Touch]:
+def renumbered(touches: Iterable[Incidence], first: int, second: int) -> set[Incidence]:
     """Incidences of the bodies 0 and 1, of two vertices once, with other numbers of the bodies."""
     two = first, second
     return {
-        Touch(two[i], v, two[j], edge, -1) if edge >= 0 else vertex_touch(two[i], v, two[j], w)
+        Incidence(two[i], v, two[j], edge, -1) if edge >= 0 else vertex_touch(two[i], v, two[j], w)
         for i, v, j, edge, w in touches
     }
 

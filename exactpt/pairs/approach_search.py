@@ -22,7 +22,7 @@ from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
-from exactpt.motion.track import Touch, Track, vertex_touch
+from exactpt.motion.track import Incidence, Track, vertex_touch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.start import Apart, Limit
@@ -165,7 +165,7 @@ class ApproachSearch:
     def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> LinearContact | None:
         """Return the first approach, exactly."""
         begin = AlgebraicNumber(now)
-        best: Earliest[Touch] = Earliest()
+        best: Earliest[Incidence] = Earliest()
         for pair in self._feature_pairs(v, e):
             check_budget()
             squared = self._squared(pair.touch.body, pair.touch.other)
@@ -176,7 +176,7 @@ class ApproachSearch:
 
     def _feature_pairs(self, v: Indices, e: Indices) -> Iterator[FeaturePair]:
         """Yield the pairs of features to which a vertex and an edge belong, each once."""
-        seen: set[Touch] = set()
+        seen: set[Incidence] = set()
         for one, edge in zip(v.tolist(), e.tolist(), strict=True):
             a, b = self._swept.ends[edge].tolist()
             track, body, vertex = self._vertex(one)
@@ -187,7 +187,7 @@ class ApproachSearch:
                 for k, end in enumerate(ends)
             ]
             if a != b:
-                pairs.append((Touch(body, vertex, other, number, -1), ends))
+                pairs.append((Incidence(body, vertex, other, number, -1), ends))
             for touch, of in pairs:
                 if touch not in seen:
                     seen.add(touch)

@@ -9,7 +9,7 @@ from exactpt.brief import cut
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.incidences import Pair, details
 from exactpt.scene.scene import Scene
 
@@ -20,7 +20,7 @@ class Found(NamedTuple):
     """The touches from which the incidences, points and normals, are computed on demand."""
 
     scene: Scene
-    touches: Sequence[Touch]
+    touches: Sequence[Incidence]
 
 
 @final
@@ -85,14 +85,14 @@ class Contact:
             object.__setattr__(self, "_pairs", pairs)
         return pairs
 
-    def _touches(self, numbers: Mapping[str, int]) -> list[Touch]:
+    def _touches(self, numbers: Mapping[str, int]) -> list[Incidence]:
         """Return the incidences, bodies numbered by ``numbers``; points are not computed."""
         found = self._pairs
         if isinstance(found, Found):
             order = [numbers.get(body.name, -1) for body in found.scene.bodies]
             return [t._replace(body=order[t.body], other=order[t.other]) for t in found.touches]
         return [
-            Touch(
+            Incidence(
                 numbers[p.body], p.vertex, numbers[p.other],
                 -1 if p.edge is None else p.edge, -1 if p.other_vertex is None else p.other_vertex,
             )
@@ -157,7 +157,7 @@ def _in_brief(pair: Pair) -> str:
 def contact_of(
     scene: Scene,
     time: AlgebraicNumber,
-    touches: Iterable[Touch],
+    touches: Iterable[Incidence],
     overlaps: Sequence[tuple[int, int]] = (),
 ) -> Contact:
     """Return the contact with the given incidences.
@@ -173,7 +173,7 @@ def contact_of(
     return Contact(time, _kind(scene, time, touches), Found(scene, touches), names)
 
 
-def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]) -> str:
+def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Incidence]) -> str:
     if time.compare_rational(scene._start) == 0:
         return "initial"
     of_two = [touch for touch in touches if touch.body != touch.other]

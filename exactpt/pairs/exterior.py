@@ -8,11 +8,11 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
-from exactpt.motion.track import Touch, Track, difference, dot, orientation_polynomial, vector
+from exactpt.motion.track import Incidence, Track, difference, dot, orientation_polynomial, vector
 
 
 def exterior_side(
-    body: Body, pieces: Mapping[int, Piece], touch: Touch, time: AlgebraicNumber
+    body: Body, pieces: Mapping[int, Piece], touch: Incidence, time: AlgebraicNumber
 ) -> int:
     """Return the side of a touched edge on which the exterior lies, by the even-odd rule.
 

@@ -28,7 +28,7 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.track import Touch, Track, dot, orientation_polynomial, vector, vertex_touch
+from exactpt.motion.track import Incidence, Track, dot, orientation_polynomial, vector, vertex_touch
 
 
 class Feature(NamedTuple):
@@ -59,7 +59,7 @@ class FeaturePair:
         is_of_edge: whether the other feature is an edge.
     """
 
-    def __init__(self, touch: Touch, v: Track, ends: tuple[Track, ...]) -> None:
+    def __init__(self, touch: Incidence, v: Track, ends: tuple[Track, ...]) -> None:
         self.touch = touch
         self.v = v
         self.ends = ends
@@ -155,7 +155,7 @@ class FeaturePair:
                 return root.time
         return None
 
-    def touch_at(self, t: AlgebraicNumber, ends: Sequence[int]) -> Touch:
+    def touch_at(self, t: AlgebraicNumber, ends: Sequence[int]) -> Incidence:
         """Return the incidence while the foot is on the edge; at an end, with that vertex.
 
         Args:
@@ -195,14 +195,14 @@ def feature_pairs(
     for number in everything if numbers is None else numbers:
         i, j = divmod(number, m)
         if i < n:
-            yield FeaturePair(Touch(0, i, 1, -1, j), p[i], (q[j],))
+            yield FeaturePair(Incidence(0, i, 1, -1, j), p[i], (q[j],))
         elif (e := i - n) < len(edges):
             k, l = edges[e]
-            yield FeaturePair(Touch(1, j, 0, e, -1), q[j], (p[k], p[l]))
+            yield FeaturePair(Incidence(1, j, 0, e, -1), q[j], (p[k], p[l]))
         else:
             i, e = divmod(number - (n + len(edges)) * m, len(others))
             k, l = others[e]
-            yield FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
+            yield FeaturePair(Incidence(0, i, 1, e, -1), p[i], (q[k], q[l]))
 
 
 def _squared_length(u: tuple[IntPoly, IntPoly]) -> IntPoly:

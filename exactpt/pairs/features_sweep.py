@@ -36,7 +36,7 @@ from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.tileable import are_tileable
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.far_spins import bodies_near_others
@@ -166,7 +166,7 @@ class PairsSearch:
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("time limit exceeded", fraction(now))
             sharp, rounded = self._split(near)
-            best: Earliest[Touch] = Earliest()
+            best: Earliest[Incidence] = Earliest()
             for found in (
                 self._search(now, later, sharp),
                 approaches and approaches.first(now, later, rounded),

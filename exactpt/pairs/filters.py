@@ -28,7 +28,7 @@ from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.outline import Outline, Path, Straight
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.rational import Candidate, Span
 
 U2: Final = 2.0 * U
@@ -193,7 +193,7 @@ def _collect(
             gap = abs(c1) - e1
             if not gap > SMALL:
                 if not abs(c0) - h > (e0 + (abs(c1) + e1) * times) * SLACK + TINY:
-                    touch = Touch(one, vertex, 1 - one, number, -1)
+                    touch = Incidence(one, vertex, 1 - one, number, -1)
                     candidates.append(Candidate(low, math.inf, touch))
                 continue
             time = -(c0 + h if c1 > 0.0 else c0 - h) / c1
@@ -215,7 +215,7 @@ def _collect(
                 first, last = low, math.inf
             elif bound < along < length - bound and first > after:
                 high = min(high, last)
-            candidates.append(Candidate(first, last, Touch(one, vertex, 1 - one, number, -1)))
+            candidates.append(Candidate(first, last, Incidence(one, vertex, 1 - one, number, -1)))
     return high
 
 

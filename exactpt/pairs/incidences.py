@@ -15,7 +15,7 @@ from exactpt.kernel.numbers import QQ, ZZ, finite
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
 from exactpt.motion.outline import is_rigid
-from exactpt.motion.track import Touch, Track, orientation_polynomial, vector
+from exactpt.motion.track import Incidence, Track, orientation_polynomial, vector
 from exactpt.scene.scene import Scene
 
 
@@ -81,7 +81,7 @@ def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
 
 
 def details(
-    scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]
+    scene: Scene, time: AlgebraicNumber, touches: Sequence[Incidence]
 ) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
     """Return the time in the form that does not depend on the search, and the incidences."""
     involved = {i for touch in touches for i in (touch.body, touch.other)}
@@ -107,7 +107,7 @@ def _as_root(
     scene: Scene,
     time: AlgebraicNumber,
     pieces: Mapping[int, Piece],
-    touches: Sequence[Touch],
+    touches: Sequence[Incidence],
 ) -> AlgebraicNumber:
     """Return the time as a root of the first incidence's polynomial."""
     if time.simplified().is_rational or not touches:
@@ -121,7 +121,7 @@ def _as_root(
     return time._as_root_of(f) if f else time
 
 
-def _ends(scene: Scene, touch: Touch, other: Piece) -> tuple[Track] | tuple[Track, Track]:
+def _ends(scene: Scene, touch: Incidence, other: Piece) -> tuple[Track] | tuple[Track, Track]:
     """Return the vertex that is touched, or the ends of the edge."""
     if touch.edge < 0:
         return (other.track(touch.other_vertex),)
@@ -132,7 +132,7 @@ def _ends(scene: Scene, touch: Touch, other: Piece) -> tuple[Track] | tuple[Trac
 def _pair(
     scene: Scene,
     pieces: Mapping[int, Piece],
-    touch: Touch,
+    touch: Incidence,
     time: AlgebraicNumber,
     outward: int,
 ) -> Pair:
@@ -159,14 +159,14 @@ def _pair(
     )
 
 
-def _touched_ring(scene: Scene, touch: Touch) -> tuple[int, range] | None:
+def _touched_ring(scene: Scene, touch: Incidence) -> tuple[int, range] | None:
     """Return the body and the ring of the edge that is touched; None if a vertex or a chain is."""
     if touch.edge < 0 or not scene.bodies[touch.other].has_interior:
         return None
     return touch.other, next(r for r in scene.bodies[touch.other].rings if touch.edge in r)
 
 
-def _may_have_crossed_itself(scene: Scene, touch: Touch) -> bool:
+def _may_have_crossed_itself(scene: Scene, touch: Incidence) -> bool:
     """Return True unless a touched polygon is certainly simple: otherwise it may touch itself.
 
     Where contacts of a body with itself do not count, it goes on after them. One that touches

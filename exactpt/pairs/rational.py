@@ -10,7 +10,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.outline import Straight
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 
 
 class Span(NamedTuple):
@@ -41,7 +41,7 @@ class LinearContact(NamedTuple):
     """
 
     time: QQ | AlgebraicNumber
-    touches: list[Touch]
+    touches: list[Incidence]
 
     @property
     def number(self) -> AlgebraicNumber:
@@ -59,7 +59,7 @@ class Candidate(NamedTuple):
 
     low: float
     high: float
-    touch: Touch
+    touch: Incidence
 
 
 T = TypeVar("T")
@@ -101,7 +101,7 @@ class Earliest(Generic[T]):
 
 def earliest(
     candidates: Iterable[Candidate],
-    first: Callable[[Touch, QQ], tuple[QQ | AlgebraicNumber, Touch] | None],
+    first: Callable[[Incidence, QQ], tuple[QQ | AlgebraicNumber, Incidence] | None],
     end: QQ,
 ) -> LinearContact | None:
     """Return the earliest time at which a candidate begins, with all incidences at that time.
@@ -113,7 +113,7 @@ def earliest(
             for any time later than its second argument.
         end: the last time.
     """
-    best: Earliest[Touch] = Earliest()
+    best: Earliest[Incidence] = Earliest()
     for candidate in candidates:
         if candidate.low > best.high:
             break
@@ -152,7 +152,7 @@ def first_incidence(
     path = ax - bx, ay - by, avx - bvx, avy - bvy
     back = -path[0], -path[1], -path[2], -path[3]
 
-    def first(touch: Touch, until: QQ) -> tuple[QQ, Touch] | None:
+    def first(touch: Incidence, until: QQ) -> tuple[QQ, Incidence] | None:
         one, vertex, _, edge, _ = touch
         met = (
             _linear_contact(b, a, back, vertex, edge)

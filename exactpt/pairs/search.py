@@ -18,7 +18,7 @@ from exactpt.kernel.budget import check_budget, deadline_in, searching
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.body import Body
 from exactpt.motion.outline import Straight
-from exactpt.motion.track import Touch, renumbered
+from exactpt.motion.track import Incidence, renumbered
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.filters import candidates_of
 from exactpt.pairs.pieces import (
@@ -191,7 +191,7 @@ class _Search:
         self._distance = distance
         self._deadline = deadline
         self._spans: dict[tuple[QQ, QQ], Span] = {}
-        self.best: Earliest[Touch] = Earliest()
+        self.best: Earliest[Incidence] = Earliest()
         self._enter = -math.inf
         self.filtered = self.exact = 0
 
@@ -279,7 +279,7 @@ def first_at_distance(
     pieces = [body._piece_after(start) for body in bodies]
     begin = AlgebraicNumber(start)
 
-    def first(touch: Touch, until: QQ) -> tuple[AlgebraicNumber, Touch] | None:
+    def first(touch: Incidence, until: QQ) -> tuple[AlgebraicNumber, Incidence] | None:
         i, vertex, j, edge, other = touch
         ends = (other,) if edge < 0 else segments_of(bodies[j])[edge]
         pair = FeaturePair(touch, pieces[i].track(vertex), tuple(map(pieces[j].track, ends)))

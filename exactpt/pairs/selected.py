@@ -17,7 +17,7 @@ from exactpt.kernel.budget import GRACE, check_budget, within
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.outline import may_touch_itself
-from exactpt.motion.track import Touch, renumbered
+from exactpt.motion.track import Incidence, renumbered
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
@@ -29,7 +29,7 @@ from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import initial_touches, touches_at_distance
 from exactpt.scene.scene import Scene, scene_of
 
-Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Touch]]"
+Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Incidence]]"
 
 
 @final
@@ -109,7 +109,7 @@ class SelectedSearch:
             return contact_of(scene, start, touches, overlaps)
         self._read_rows()
         touching = set(overlaps)
-        best: Earliest[tuple[tuple[int, ...], Iterable[Touch]]] = Earliest()
+        best: Earliest[tuple[tuple[int, ...], Iterable[Incidence]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
         for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):
             check_budget()

@@ -20,7 +20,7 @@ from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.inside import nested_pairs
-from exactpt.motion.track import Touch, renumbered
+from exactpt.motion.track import Incidence, renumbered
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs
@@ -41,7 +41,7 @@ FEW: Final = 32
 
 def initial_touches(
     scene: Scene, near: Sequence[tuple[int, int]] | None = None
-) -> tuple[list[Touch], list[tuple[int, int]]]:
+) -> tuple[list[Incidence], list[tuple[int, int]]]:
     """Return all incidences at the start, and the pairs of bodies (as indices) that share a point.
 
     The list of pairs is empty if and only if no contact exists at the start. There are no
@@ -61,7 +61,7 @@ def initial_touches(
     some = range(len(scene.bodies)) if near is None else sorted({i for ij in near for i in ij})
     points = {i: scene.bodies[i]._at(scene._start) for i in some}
     compared = None if near is None else set(near)
-    touches: set[Touch] = set()
+    touches: set[Incidence] = set()
     pairs: set[tuple[int, int]] = set()
     bodies = {i for first, second in _chunks(points, near) for i in {*first, *second}}
     for e, f in _near_edges(scene, points, bodies):
@@ -134,7 +134,7 @@ def _near_of_few(vertices: Vertices, start: QQ) -> list[tuple[int, int]]:
 
 def _with_radii(
     scene: Scene, near: Sequence[tuple[int, int]] | None
-) -> tuple[list[Touch], list[tuple[int, int]]]:
+) -> tuple[list[Incidence], list[tuple[int, int]]]:
     """Return the result of `initial_touches`, where some of the bodies have a radius."""
     radii = [body._radius for body in scene.bodies]
     has_radius = np.array([r > 0 for r in radii], np.bool_)
@@ -200,7 +200,7 @@ def within_at_start(
 
 def touches_at_distance(
     scene: Scene, pairs: Iterable[tuple[int, int]], time: AlgebraicNumber
-) -> Iterator[Touch]:
+) -> Iterator[Incidence]:
     """Yield the incidences of pairs of bodies that touch at a time at the sum of their radii."""
     for i, j in pairs:
         two = scene.bodies[i], scene.bodies[j]
@@ -253,12 +253,12 @@ def _near_edges(
             yield found[i], found[j]
 
 
-def incidences(e: Edge, f: Edge) -> Iterator[Touch]:
+def incidences(e: Edge, f: Edge) -> Iterator[Incidence]:
     """Yield the incidences of an end of edge e with edge f or with an end of f."""
     for v, p in zip(e.ends, (e.a, e.b), strict=True):
         meeting = [w for w, q in zip(f.ends, (f.a, f.b), strict=True) if p == q]
         for w in meeting:
             if e.body < f.body:  # report each vertex-vertex incidence once
-                yield Touch(e.body, v, f.body, -1, w)
+                yield Incidence(e.body, v, f.body, -1, w)
         if not meeting and orientation(f.a, f.b, p) == 0 and between(f.a, f.b, p):
-            yield Touch(e.body, v, f.body, f.number, -1)
+            yield Incidence(e.body, v, f.body, f.number, -1)

@@ -69,7 +69,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.depth import have_deep_point
 from exactpt.pairs.distance import squared_distance, squared_from_segment
 from exactpt.pairs.features import FeaturePair
@@ -197,9 +197,9 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
         return False
     for piece_pair in piece_pairs(point, other, begin, end):
         track, over = piece_pair.first[0], (piece_pair.second[ends[0]], piece_pair.second[ends[1]])
-        ends_apart = (FeaturePair(Touch(0, 0, 1, -1, k), track, (over[k],)) for k in (0, 1))
+        ends_apart = (FeaturePair(Incidence(0, 0, 1, -1, k), track, (over[k],)) for k in (0, 1))
         positive = [pair.at_distance(margin * margin) for pair in ends_apart]
-        positive += FeaturePair(Touch(0, 0, 1, edge, -1), track, over).limits
+        positive += FeaturePair(Incidence(0, 0, 1, edge, -1), track, over).limits
         if not all(_is_positive(f, piece_pair.begin, piece_pair.end) for f in positive):
             return False
     return True

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.outline import Path, Straight
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.rational import Candidate
 
 K: Final = 16.0 * U
@@ -57,7 +57,7 @@ def vertex_candidates(
             c_bound = K * (z2 + 2.0 * squared) + 2.0 * d * (size + d) + TINY
             root = _smaller_root(a2, p + q, z2 - squared, a_error, b_error, c_bound, times)
             if root is not None and root.low <= high and root.high >= low:
-                yield Candidate(root.low, root.high, Touch(0, i, 1, -1, j))
+                yield Candidate(root.low, root.high, Incidence(0, i, 1, -1, j))
 
 
 def _smaller_root(

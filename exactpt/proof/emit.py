@@ -23,7 +23,7 @@ from exactpt.scene.written import scene_bytes
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.track import Touch
+    from exactpt.motion.track import Incidence
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
@@ -190,7 +190,7 @@ class Part(Observer):
             self._release()
             self._held = self.watch.step(changed)
 
-    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+    def on_contact(self, tiling: Tiling, touches: Sequence[Incidence]) -> None:
         """See `Observer.on_contact`."""
         self._release()
         self._put(self._maker.contact(tiling.now, self.watch.names(), touches))

@@ -14,7 +14,7 @@ from exactpt.proof.times import time_text
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.track import Touch
+    from exactpt.motion.track import Incidence
     from exactpt.proof.contraction import Cycle
     from exactpt.proof.nodes import Nodes
     from exactpt.proof.watch import Step
@@ -58,7 +58,7 @@ class Lines:
         self._angles.begin(_angles(links, {}), AlgebraicNumber(self._nodes.scene._start))
 
     def contact(
-        self, time: AlgebraicNumber, names: Sequence[tuple[int, ...]], touches: Iterable[Touch]
+        self, time: AlgebraicNumber, names: Sequence[tuple[int, ...]], touches: Iterable[Incidence]
     ) -> Iterator[str]:
         """Yield the last lines, if there is a contact.
 
@@ -73,7 +73,7 @@ class Lines:
         yield f"contact {when} {self._touch(ordered[0])}"
 
     def contact_at_start(
-        self, touches: Sequence[Touch], overlaps: Sequence[tuple[int, int]]
+        self, touches: Sequence[Incidence], overlaps: Sequence[tuple[int, int]]
     ) -> str:
         """Return the last line, if there is a contact at the start."""
         start = self._nodes.scene._start
@@ -122,7 +122,7 @@ class Lines:
         apart = abs(u - v)
         return apart == 1 or (body.closed and apart == body.size - 1)
 
-    def _name(self, touch: Touch) -> tuple[int, ...]:
+    def _name(self, touch: Incidence) -> tuple[int, ...]:
         first = self._nodes.first
         v = first[touch.body] + touch.vertex
         if touch.edge < 0:
@@ -133,7 +133,7 @@ class Lines:
         first = self._nodes.first[i]
         return first + edge, first + self._nodes.scene.bodies[i].end_of_edge(edge)
 
-    def _touch(self, touch: Touch) -> str:
+    def _touch(self, touch: Incidence) -> str:
         v, *others = self._name(touch)
         return f"vertex {v} {'edge' if touch.edge >= 0 else 'vertex'} {' '.join(map(str, others))}"
 

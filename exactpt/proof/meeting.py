@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from exactpt.check_apart import are_near, require_passage
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.proof.frame import TINY
 from exactpt.proof.paths import Paths
 from exactpt.proof_scene import Poly, Rejected, Whole, surrounds, written
@@ -33,7 +33,9 @@ class Meetings:
         v = self._paths.first[body] + vertex
         return [k for k in self.items(body) if v in self._paths.items[k][1:]]
 
-    def at(self, pairs: Sequence[tuple[int, int]], touches: Sequence[Touch], t: Fraction) -> str:
+    def at(
+        self, pairs: Sequence[tuple[int, int]], touches: Sequence[Incidence], t: Fraction
+    ) -> str:
         """Return a last line by two bodies at a time: first by items that touch.
 
         Raises:

@@ -27,7 +27,7 @@ from exactpt.scene.written import scene_bytes
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
-    from exactpt.motion.track import Touch
+    from exactpt.motion.track import Incidence
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
@@ -95,7 +95,7 @@ class ProofFolder(Observer):
         else:
             self._file.close()
 
-    def on_contact(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+    def on_contact(self, tiling: Tiling, touches: Sequence[Incidence]) -> None:
         """See `Observer.on_contact`."""
         part, self._part = self._part, None
         if part is not None:

@@ -9,7 +9,7 @@ from mypy_extensions import mypyc_attr
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.indices import Ends, VertexId
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 
 Edges: TypeAlias = tuple[Ends, ...]
 """Edges, as pairs of vertex ids."""
@@ -43,7 +43,7 @@ class ContactFound(Exception):  # noqa: N818 - an outcome that ends the run, no 
         touches: all incidences of a vertex with an edge or a vertex at that time.
     """
 
-    def __init__(self, touches: list[Touch]) -> None:
+    def __init__(self, touches: list[Incidence]) -> None:
         super().__init__(f"{len(touches)} touches")
         self.touches = touches
 

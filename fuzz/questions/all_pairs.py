@@ -17,7 +17,14 @@ from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.motion.track import Touch, Track, coincide, difference, lies_on, orientation_polynomial
+from exactpt.motion.track import (
+    Incidence,
+    Track,
+    coincide,
+    difference,
+    lies_on,
+    orientation_polynomial,
+)
 from exactpt.pairs.contact import contact_of
 from exactpt.pairs.incidences import tracks_just_before
 from fuzz.questions.all_pairs_radii import (
@@ -135,7 +142,7 @@ def _meetings(
 
 def touches_at(
     scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
-) -> Iterator[Touch]:
+) -> Iterator[Incidence]:
     """Yield every incidence of a vertex with a vertex or an edge at a time.
 
     Of rounded bodies: of features at the sum of the radii, unless the bodies overlap at the start.
@@ -160,13 +167,13 @@ def touches_at(
                 ]
                 for w in on_vertex:
                     if (i, v) < (j, w):
-                        yield Touch(i, v, j, -1, w)
+                        yield Incidence(i, v, j, -1, w)
                 for e, (a, b) in enumerate(bodies[j].edges):
                     ends = {(j, a), (j, b)}
                     if (i, v) in ends or a in on_vertex or b in on_vertex:
                         continue
                     if lies_on(track, q[a], q[b], time):
-                        yield Touch(i, v, j, e, -1)
+                        yield Incidence(i, v, j, e, -1)
 
 
 def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:

@@ -16,7 +16,7 @@ from exactpt import AlgebraicNumber, Body
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.motion.track import Touch, Track
+from exactpt.motion.track import Incidence, Track
 
 Point: TypeAlias = "tuple[QQ, QQ]"
 Segment: TypeAlias = "tuple[Point, Point]"
@@ -98,19 +98,19 @@ def first_at_distance(
 def touches_at_distance(
     bodies: Sequence[Body], tracks: Sequence[Sequence[Track]], ij: tuple[int, int],
     time: AlgebraicNumber,
-) -> Iterator[Touch]:  # fmt: skip
+) -> Iterator[Incidence]:  # fmt: skip
     """Yield the pairs of features of bodies i < j that are at distance R at a time."""
     i, j = ij
     squared = (bodies[i]._radius + bodies[j]._radius) ** 2
     p, q = tracks[i], tracks[j]
     for (k, u), (l, v) in product(enumerate(p), enumerate(q)):
         if time.sign_of(_excess(_squared(_from(u, v)), squared)) == 0:
-            yield Touch(i, k, j, -1, l)
+            yield Incidence(i, k, j, -1, l)
     for (n, m), (one, other) in (((i, j), (p, q)), ((j, i), (q, p))):
         for (k, v), (e, (c, d)) in product(enumerate(one), enumerate(bodies[m].edges)):
             f = _excess(_squared_from_line(v, other[c], other[d]), squared)
             if time.sign_of(f) == 0 and min(_sides_of_foot(v, other[c], other[d], time)) > 0:
-                yield Touch(n, k, m, e, -1)
+                yield Incidence(n, k, m, e, -1)
 
 
 def _vertices_and_edges(

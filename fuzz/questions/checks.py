@@ -14,7 +14,7 @@ from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.clearance import Clearance, ClearancePiece
 from exactpt.pairs.distance import distance
@@ -224,11 +224,13 @@ def _after_start(random: Random) -> Checked:
     return Checked(scene, kind, fault)
 
 
-def _ordered(touch: Touch) -> tuple[int, int]:
+def _ordered(touch: Incidence) -> tuple[int, int]:
     return min(touch.body, touch.other), max(touch.body, touch.other)
 
 
-def _touches(scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]]) -> list[Touch]:
+def _touches(
+    scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]]
+) -> list[Incidence]:
     """Return the incidences at a time of the pairs of bodies, from the definition."""
     tracks = [tracks_just_before(body, t, scene._start) for body in scene.bodies]
     return sorted(touch for touch in touches_at(scene, tracks, t) if _ordered(touch) in pairs)

@@ -16,13 +16,13 @@ from itertools import groupby
 from exactpt.certificates.certifier import X_ORDER, Certifier
 from exactpt.certificates.coincidence import coordinate_order
 from exactpt.indices import VertexId
-from exactpt.motion.track import Touch, difference
+from exactpt.motion.track import Incidence, difference
 from exactpt.tiling.incremental.structure import IncrementalStructure
 
 
 def coinciding(
     certifier: Certifier, structure: IncrementalStructure, candidates: Iterable[VertexId]
-) -> list[Touch]:
+) -> list[Incidence]:
     """Return the points that coincide now, as pairs, in order.
 
     Args:
@@ -35,7 +35,7 @@ def coinciding(
         return coordinate_order(certifier, certifier.all[q], certifier.all[p], 1)
 
     order, rank = structure.order, structure.rank
-    found: list[Touch] = []
+    found: list[Incidence] = []
     done = -1
     for i in sorted(rank[p] for p in candidates):
         if i < done:
@@ -53,7 +53,7 @@ def coinciding(
         for _, equal in groupby(sorted(column, key=height), key=height):
             group = sorted(equal)
             found += [
-                Touch(int(p), 0, int(q), -1, 0) for j, q in enumerate(group) for p in group[:j]
+                Incidence(int(p), 0, int(q), -1, 0) for j, q in enumerate(group) for p in group[:j]
             ]
     return sorted(found)
 

@@ -18,7 +18,7 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.incidences import FEW, touches
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.track import Touch
+from exactpt.motion.track import Incidence
 from exactpt.motion.vertices import Vertices
 
 CODES = [*range(6), 6, 7, *range(8, 14)]
@@ -60,8 +60,8 @@ def test_the_integers_of_compiled_code_are_the_kinds():
 
 
 SQUARE = Body("square", [(0, 0), (2, 0), (2, 2), (0, 2)])
-ON_EDGE = Touch(1, 0, 0, 1, -1)
-ON_VERTEX = Touch(0, 2, 1, -1, 0)
+ON_EDGE = Incidence(1, 0, 0, 1, -1)
+ON_VERTEX = Incidence(0, 2, 1, -1, 0)
 
 
 def touches_now(*bodies):
@@ -75,16 +75,16 @@ def touches_now(*bodies):
     "body, expected",
     [
         (Body("on an edge", [(2, 1)]), [ON_EDGE]),
-        (Body("on the last edge", [(0, 1)]), [Touch(1, 0, 0, 3, -1)]),
+        (Body("on the last edge", [(0, 1)]), [Incidence(1, 0, 0, 3, -1)]),
         (Body("on a vertex", [(2, 2)]), [ON_VERTEX]),
         (Body("on a line", [(2, 3)]), []),
         (Body("tip on an edge", [(2, 1), (4, 1), (4, 2)]), [ON_EDGE]),
-        (Body("last edge on a vertex", [(3, 1), (3, 2), (1, 3)]), [Touch(0, 2, 1, 2, -1)]),
-        (Body("edge on a vertex", [(1, 3), (3, 1), (3, 3)]), [Touch(0, 2, 1, 0, -1)]),
+        (Body("last edge on a vertex", [(3, 1), (3, 2), (1, 3)]), [Incidence(0, 2, 1, 2, -1)]),
+        (Body("edge on a vertex", [(1, 3), (3, 1), (3, 3)]), [Incidence(0, 2, 1, 0, -1)]),
         (Body("segment", [(2, 1), (4, 1)]), [ON_EDGE]),
         (
             Body("open chain", [(3, 0), (4, 1), (3, 4), (1, 3), (3, 1)], closed=False),
-            [Touch(0, 2, 1, 3, -1)],
+            [Incidence(0, 2, 1, 3, -1)],
         ),
     ],
 )
@@ -98,4 +98,4 @@ def test_touches(body, expected, others):
 def test_neighbours_touch_where_their_edge_has_shrunk_to_a_point():
     body = Body("b", [(0, 0), {"x": [0, 1], "y": [0]}, (3, 3)], closed=False)
 
-    assert touches_now(body) == [Touch(0, 0, 0, -1, 1)]
+    assert touches_now(body) == [Incidence(0, 0, 0, -1, 1)]

@@ -3,13 +3,13 @@
 import pytest
 
 from exactpt.kernel.numbers import ZZ
-from exactpt.motion.track import Touch, Track, renumbered, vertex_touch
+from exactpt.motion.track import Incidence, Track, renumbered, vertex_touch
 from fuzz.planted import PLANTED
 
 
 def test_incidence_of_two_vertices_is_the_same_for_swapped_bodies():
     """Vertex 7 of body 2 is on vertex 5 of body 1: the lower body comes first, with its vertex."""
-    expected = Touch(body=1, vertex=5, other=2, edge=-1, other_vertex=7)
+    expected = Incidence(body=1, vertex=5, other=2, edge=-1, other_vertex=7)
 
     assert vertex_touch(1, 5, 2, 7) == expected
     assert vertex_touch(2, 7, 1, 5) == expected
@@ -17,15 +17,15 @@ def test_incidence_of_two_vertices_is_the_same_for_swapped_bodies():
 
 def test_renumbered_incidence_keeps_each_vertex_with_its_body():
     """Body 0 becomes 9 and body 1 becomes 4: vertex 3 stays that of body 9, vertex 8 of body 4."""
-    touches = renumbered({Touch(0, 3, 1, -1, 8)}, 9, 4)
+    touches = renumbered({Incidence(0, 3, 1, -1, 8)}, 9, 4)
 
-    assert touches == {Touch(4, 8, 9, -1, 3)}
+    assert touches == {Incidence(4, 8, 9, -1, 3)}
 
 
 @pytest.mark.plain
 def test_renumbered_incidence_of_swapped_bodies_is_wrong_if_vertices_stay():
     with PLANTED["vertices of swapped bodies not swapped"].made():
-        assert renumbered({Touch(0, 3, 1, -1, 8)}, 9, 4) == {Touch(4, 3, 9, -1, 8)}
+        assert renumbered({Incidence(0, 3, 1, -1, 8)}, 9, 4) == {Incidence(4, 3, 9, -1, 8)}
 
 
 @pytest.mark.parametrize("widths", [(16, 32, 16), (64, 8, 64), (32, 31, 33)])
