@@ -111,11 +111,11 @@ class CertificateQueue:
             RoundingError: see `check_rounding`.
         """
         check_rounding()
-        batch = self._events.pop()
-        if batch is None:
+        group = self._events.pop()
+        if group is None:
             self.now = AlgebraicNumber(self._until)
             return []
-        first, failed = batch
+        first, failed = group
         self.now = self._failures.resolve(first)
         return [self._names[slot] for slot, _ in failed]
 

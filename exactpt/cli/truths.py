@@ -34,11 +34,11 @@ def oracle(file: BinaryIO, max_seconds: float | None) -> int:
       exactpt oracle questions.jsonl
       exactpt questions grazing_corner -n 1000 | exactpt oracle > truths.jsonl
     """
-    from exactpt.testing.oracle import Refusals, answers, batches
+    from exactpt.testing.oracle import Refusals, answers, chunks_of_lines
 
     refusals, first = Refusals(), 1
     with within_budget(max_seconds):
-        for lines in batches(file, max_bytes()):
+        for lines in chunks_of_lines(file, max_bytes()):
             output = "\n".join(answers(lines, first, refusals))
             first += len(lines)
             if output:

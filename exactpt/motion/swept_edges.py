@@ -59,9 +59,9 @@ class SweptEdges:
             base += body.size
         self.ends: Indices = np.array(ends)
         self._first: Indices = np.cumsum([0, *(body.size for body in bodies)])[:-1]
-        self._read_images()
+        self._read_tracks()
 
-    def _read_images(self) -> None:
+    def _read_tracks(self) -> None:
         float_tracks = [self.vertices.all[v].float_track for v in self.ids]
         self.boxes = SweptBoxes(float_tracks, self.vertices.enclosures.errors)
         self.motion: Indices = np.array([float_track.motion for float_track in float_tracks])
@@ -97,7 +97,7 @@ class SweptEdges:
         for i in ended:
             self.vertices.enter_piece(i, now)
         if not all(self._replace_float_tracks(i) for i in ended):
-            self._read_images()
+            self._read_tracks()
 
     def _replace_float_tracks(self, i: int) -> bool:
         """Read the enclosures of a body that has entered a piece; false if they do not fit."""

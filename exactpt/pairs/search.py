@@ -1,7 +1,7 @@
 """The first contact of bodies that all move straight, piece by piece.
 
-Each body is a piece per piece of its motion. Rows whose boxes overlap while both last are compared
-in the order in which their boxes intersect, up to the first contact.
+Each piece of a body's motion is a `MotionPiece`. Pieces whose boxes intersect while both last are
+compared in the order in which their boxes intersect, up to the first contact.
 """
 
 from __future__ import annotations

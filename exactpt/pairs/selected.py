@@ -107,7 +107,7 @@ class SelectedSearch:
         touches, overlaps = initial_touches(scene, pairs)
         if overlaps and not self._after_start:
             return contact_of(scene, start, touches, overlaps)
-        self._read_rows()
+        self._read_pieces()
         touching = set(overlaps)
         best: Earliest[tuple[tuple[int, ...], Iterable[Incidence]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
@@ -136,7 +136,7 @@ class SelectedSearch:
             return []
         return [i for i, body in enumerate(self._scene.bodies) if may_touch_itself(body)]
 
-    def _read_rows(self) -> None:
+    def _read_pieces(self) -> None:
         pieces = None if self._exact_only else linear_pieces(self._scene)
         if pieces is not None:
             self._pieces = {i: [] for i in range(len(self._scene.bodies))}

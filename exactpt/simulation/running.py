@@ -56,7 +56,7 @@ class Run:
     """A scene whose time passes, see `exactpt.Simulation`.
 
     Attributes:
-        living: the scene with its tiling.
+        mutable: the scene with its tiling.
         begun: the time at which the run began, before any change.
         margin: maximum distance in time between a response and its contact.
         pending: events that have been processed and not been reported.

@@ -32,7 +32,7 @@ class Refusals:
     first: str = ""
 
 
-def batches(stream: BinaryIO, longest: int | None = None) -> Iterator[list[bytes]]:
+def chunks_of_lines(stream: BinaryIO, longest: int | None = None) -> Iterator[list[bytes]]:
     """Yield all complete lines read so far; never block while any are buffered.
 
     Args:

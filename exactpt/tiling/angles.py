@@ -65,7 +65,7 @@ class CertifiedMesh(Angles):
         certifier: certificates and the current time.
         table: the pending and the violated certificates, and the flat angles.
         followers: the rules of the tiling, which receive every change.
-        batch: the repairs at the current time.
+        failure_group: the repairs at the current time.
         checks_rigid: whether angles that cannot fail are checked too: in the midst of repairs
             and after other changes their marks may be wrong.
     """

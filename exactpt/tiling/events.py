@@ -56,7 +56,7 @@ class Stats:
         events: changes of the tiling by kind.
         batches: times at which more than one certificate failed.
         rebuilds: number of times at which the repairs failed and the tiling was rebuilt.
-        flips: number of flips made by checks after a batch, to make the tiling canonical.
+        flips: number of flips made by checks after a failure group, to make the tiling canonical.
         most: maximum number of pending certificates.
     """
 

@@ -276,7 +276,7 @@ class VerticalRules(Rules):
         return crossed + meeting
 
     def _require_check_around(self, u: VertexId) -> None:
-        """Leave a pair to the check of the batch, which flips until the tiling is greedy.
+        """Leave a pair to the check of the failure group, which flips until the tiling is greedy.
 
         If several pairs on one vertical line are exchanged one by one, a diagonal may be missing
         that an earlier exchange should have inserted, or may have been inserted too early. By

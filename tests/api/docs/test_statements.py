@@ -18,7 +18,7 @@ from exactpt import AuditError, Body, Rigid, Scene, Simulation, Translation, cli
 from exactpt.cli.runs import collide
 from exactpt.motion import swept_edges
 from exactpt.pairs import features_sweep as pairs
-from exactpt.pairs import search as straight_search
+from exactpt.pairs import search as linear_search
 from exactpt.scene.generate import generate
 
 ROOT = Path(__file__).parents[3]
@@ -135,7 +135,7 @@ def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
 
 def test_in_a_convoy_no_two_bodies_are_compared(monkeypatch):
     compared = []
-    monkeypatch.setattr(straight_search, "candidates_of", lambda *_: compared.append(1))
+    monkeypatch.setattr(linear_search, "candidates_of", lambda *_: compared.append(1))
     assert first_contact(convoy(1000)) is None
     assert not compared
 

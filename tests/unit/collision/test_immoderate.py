@@ -1,4 +1,4 @@
-"""Coefficients that no double image holds: their boxes are the whole plane, never nothing."""
+"""Coefficients that no double holds: their boxes are the whole plane, never nothing."""
 
 import sys
 from types import SimpleNamespace

@@ -11,7 +11,7 @@ from exactpt import Body, Scene, Translation, first_contact
 from exactpt.collision.searches import searches_pairs
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion import swept_edges
-from exactpt.pairs import boxes as row_boxes
+from exactpt.pairs import boxes as piece_boxes
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs.features_sweep import PairsSearch
 from fuzz.questions.all_pairs import first_contact_allpairs
@@ -125,7 +125,7 @@ def compared(monkeypatch):
     for module, name in (
         (swept_edges, "crossing_pairs"),
         (swept_edges, "overlapping_pairs"),
-        (row_boxes, "overlapping_pairs"),
+        (piece_boxes, "overlapping_pairs"),
     ):
         monkeypatch.setattr(module, name, counting(getattr(module, name)))
     return counted
@@ -158,8 +158,8 @@ def test_slabs_do_not_depend_on_the_time_span(compared, straight):
 @pytest.mark.parametrize("is_mixed", [False, True])
 def test_bodies_that_fly_apart_are_compared_once_for_the_rest_of_the_span(monkeypatch, is_mixed):
     """Boxes of all that they pass overlap in long slabs: 31 and 37 slabs without the tree."""
-    ends, looks = [], row_boxes._meeting
-    monkeypatch.setattr(row_boxes, "_meeting", lambda *args: ends.append(args[2]) or looks(*args))
+    ends, looks = [], piece_boxes._meeting
+    monkeypatch.setattr(piece_boxes, "_meeting", lambda *args: ends.append(args[2]) or looks(*args))
     bodies = [
         Body(f"b{k}", SQUARE, Translation([3 * x, 0.1 * x], [3 * y, 0.1 * y]))
         for k, (x, y) in enumerate(product(range(-8, 8), repeat=2))
@@ -168,7 +168,7 @@ def test_bodies_that_fly_apart_are_compared_once_for_the_rest_of_the_span(monkey
         bodies.append(Body("late", SQUARE, Translation([-99, Fraction(1, 9)], [Fraction(3, 2)])))
 
     assert first_contact(Scene(bodies, (0, 10**6))) is None
-    assert row_boxes.FEW_SLABS <= len(ends) <= row_boxes.FEW_SLABS + 2
+    assert piece_boxes.FEW_SLABS <= len(ends) <= piece_boxes.FEW_SLABS + 2
 
 
 def test_a_slab_that_was_too_long_is_not_tried_each_time(monkeypatch):

@@ -9,9 +9,9 @@ import pytest
 from exactpt import Body, Contact, Pieces, Rigid, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.outline import far_origin
-from exactpt.pairs import boxes as row_boxes
+from exactpt.pairs import boxes as piece_boxes
 from exactpt.pairs import incidences, pieces
-from exactpt.pairs import search as straight_search
+from exactpt.pairs import search as linear_search
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.generate import FAMILIES, POINTS, generate
@@ -27,7 +27,7 @@ def summary(contact):
 @pytest.mark.parametrize("few", [0, 10**6], ids=["boxes", "all pairs of rows"])
 @pytest.mark.parametrize("family", sorted({**FAMILIES, **POINTS}))
 def test_families(family, few, monkeypatch):
-    for module in (pieces, straight_search):
+    for module in (pieces, linear_search):
         monkeypatch.setattr(module, "FEW", few)
     for seed in range(3):
         scene = generate(family, seed)
@@ -89,7 +89,7 @@ def scenes(count, name):
 @pytest.mark.parametrize("few", [0, 10**6])
 @pytest.mark.parametrize("count", [150, pytest.param(5000, marks=pytest.mark.slow)])
 def test_close_to_degeneracy(few, count, monkeypatch):
-    for module in (pieces, straight_search):
+    for module in (pieces, linear_search):
         monkeypatch.setattr(module, "FEW", few)
     kinds = set()
     for scene in scenes(count, f"close {few}"):
@@ -163,7 +163,7 @@ def touching_at_ends(rng, *, in_doubles, far):
 @pytest.mark.parametrize("few", [0, 10**6])
 def test_rounding_misses_no_end_that_is_touched(in_doubles, far, few, monkeypatch):
     """At the end of an edge, or between two points, a filter without bounds misses contacts."""
-    for module in (pieces, straight_search):
+    for module in (pieces, linear_search):
         monkeypatch.setattr(module, "FEW", few)
     rng = Random(f"ends {in_doubles} {far}")
     asked = 0
@@ -260,7 +260,7 @@ def test_an_irrational_time_has_its_polynomial_whenever_it_is_asked():
 def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
     """20 bodies of 100 pieces that keep away from each other: hardly two rows are compared."""
     compared = []
-    monkeypatch.setattr(straight_search, "candidates_of", lambda *_: compared.append(1))
+    monkeypatch.setattr(linear_search, "candidates_of", lambda *_: compared.append(1))
     rng = Random(5)
     bodies = []
     for i in range(20):
@@ -279,13 +279,13 @@ def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
 
 def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
     compared = []
-    candidates_of = straight_search.candidates_of
+    candidates_of = linear_search.candidates_of
 
     def recorded(a, b, *rest):
         compared.append((a, b))
         return candidates_of(a, b, *rest)
 
-    monkeypatch.setattr(straight_search, "candidates_of", recorded)
+    monkeypatch.setattr(linear_search, "candidates_of", recorded)
     bodies = []
     for i in range(40):
         bodies += [
@@ -296,27 +296,27 @@ def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
     assert len(compared) < 8
 
 
-def test_boxes_of_rows_hold_their_bodies():
-    rng = Random("rows")
+def test_boxes_of_pieces_contain_their_bodies():
+    rng = Random("pieces")
     for _ in range(60):
         scene = next(scenes(1, rng.random()))
-        rows = linear_pieces(scene)
+        moving = linear_pieces(scene)
         origin = far_origin(scene.bodies) or (0, 0)
-        boxes = row_boxes.PieceBoxes.of(rows)
+        boxes = piece_boxes.PieceBoxes.of(moving)
         low = rng.uniform(0, float(scene.end) / 2)
         high = low + rng.uniform(0, float(scene.end) / 2)
         active, places = boxes.during(low, high)
         for k, (left, right, down, up) in zip(active.tolist(), places.tolist(), strict=True):
-            row = rows[k]
+            piece = moving[k]
             for share in (0, QQ(1, 3), 1):
                 t = QQ(low) + share * (QQ(high) - QQ(low))
-                if row.start <= t <= row.end:
+                if piece.start <= t <= piece.end:
                     drift = [QQ(float(d)) * t for d in boxes.drift]
-                    for x, y in scene.bodies[row.body].at(t):
+                    for x, y in scene.bodies[piece.body].at(t):
                         assert left <= QQ(x) - origin[0] - drift[0] <= right
                         assert down <= QQ(y) - origin[1] - drift[1] <= up
 
 
-def test_a_body_that_turns_is_not_searched_by_rows():
+def test_a_body_that_turns_has_no_linear_pieces():
     turning = Body("mill", [(0, 0), (1, 0)], Rigid([0, 1]))
     assert linear_pieces(Scene([turning], (0, 1))) is None
