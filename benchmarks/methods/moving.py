@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.methods.method import UnsuitableScene
+from exactpt.kernel.doubles import Floats
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.scene.scene import Scene
 
 __all__ = ["Floats", "Indices", "Moving", "Shape"]
 
-Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int32]
 
 

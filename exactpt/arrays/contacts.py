@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from exactpt.brief import counted
 from exactpt.errors import InputError
-from exactpt.geometry.ragged import Flags
-from exactpt.kernel.doubles import Floats
+from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import shorten
 from exactpt.pairs.search import pair_search
 

@@ -8,8 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
-from exactpt.geometry.ragged import Flags
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.kernel.vectorized import Answers, linears, quadratics
 

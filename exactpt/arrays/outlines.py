@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exactpt.geometry.ragged import Edges, Flags, edges_of
-from exactpt.kernel.doubles import Floats, Indices, native
+from exactpt.geometry.ragged import Edges, edges_of
+from exactpt.kernel.doubles import Flags, Floats, Indices, native
 from exactpt.scene.body_arrays import BodyArrays
 
 

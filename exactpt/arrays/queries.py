@@ -15,10 +15,9 @@ from exactpt.arrays.relative import Relative, orientations
 from exactpt.arrays.sharpening import ExactRelative, sharpened
 from exactpt.arrays.spans import Spans, read_spans
 from exactpt.errors import InputError
-from exactpt.geometry.ragged import Flags
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.double_double import exact_difference
-from exactpt.kernel.doubles import Floats, Indices, doubles, finite_rows
+from exactpt.kernel.doubles import Flags, Floats, Indices, doubles, finite_rows
 from exactpt.kernel.numbers import QQ, of_double, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body

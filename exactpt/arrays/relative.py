@@ -11,8 +11,7 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from exactpt.geometry.ragged import Flags
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 
 K: Final = 8.0 * U

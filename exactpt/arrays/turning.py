@@ -38,9 +38,9 @@ from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import Outlines, outlines_of
 from exactpt.arrays.spans import Spans
 from exactpt.arrays.starts import at_start
-from exactpt.geometry.ragged import Flags, ranges
+from exactpt.geometry.ragged import ranges
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.doubles import Floats, Indices, native
+from exactpt.kernel.doubles import Flags, Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.scene.body_arrays import BodyArrays
 

@@ -30,7 +30,7 @@ ONE: Final = [1.0]
 
 Five: TypeAlias = tuple[float, float, float, float, float]
 Six: TypeAlias = tuple[float, float, float, float, float, float]
-Floats: TypeAlias = list[float]
+Coefficients: TypeAlias = list[float]
 
 
 def pair(
@@ -195,7 +195,9 @@ def _has_pivot(float_track: FloatTrack) -> bool:
     return float_track.arm is not None or (float_track.degree <= 2 and not float_track.ws)
 
 
-def _row(origin: Arm | None, float_track: FloatTrack) -> tuple[Floats, Floats, Floats, Floats]:
+def _row(
+    origin: Arm | None, float_track: FloatTrack
+) -> tuple[Coefficients, Coefficients, Coefficients, Coefficients]:
     """x, y and w of a vertex, and the sizes of the terms of x and y together.
 
     They are relative to the pivot of ``origin``: w d + r as in `pair`. Without ``origin`` they
@@ -226,7 +228,7 @@ def _row(origin: Arm | None, float_track: FloatTrack) -> tuple[Floats, Floats, F
     return _sum(_product(dx, w), x), _sum(_product(dy, w), y), w, sizes
 
 
-def _cross(ux: Floats, uy: Floats, vx: Floats, vy: Floats) -> Floats:
+def _cross(ux: Coefficients, uy: Coefficients, vx: Coefficients, vy: Coefficients) -> Coefficients:
     values = [0.0] * (len(ux) + len(vx) - 1)
     for i in range(len(ux)):
         x, y = ux[i], uy[i]
@@ -235,7 +237,7 @@ def _cross(ux: Floats, uy: Floats, vx: Floats, vy: Floats) -> Floats:
     return values
 
 
-def _product(f: Floats, g: Floats) -> Floats:
+def _product(f: Coefficients, g: Coefficients) -> Coefficients:
     if len(f) == 1:
         first = f[0]
         return [first * x for x in g]
@@ -247,7 +249,7 @@ def _product(f: Floats, g: Floats) -> Floats:
     return values
 
 
-def _sum(f: Floats, g: Floats) -> Floats:
+def _sum(f: Coefficients, g: Coefficients) -> Coefficients:
     if len(f) < len(g):
         f, g = g, f
     values = f[:]
@@ -256,5 +258,5 @@ def _sum(f: Floats, g: Floats) -> Floats:
     return values
 
 
-def _absolute(f: Floats) -> Floats:
+def _absolute(f: Coefficients) -> Coefficients:
     return [abs(x) for x in f]

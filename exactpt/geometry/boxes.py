@@ -7,15 +7,12 @@ from math import isqrt
 from typing import Final, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, relative_doubles
 
-Floats: TypeAlias = NDArray[np.float64]
-Indices: TypeAlias = NDArray[np.int64]
-
-Boxes: TypeAlias = NDArray[np.float64]
+Boxes: TypeAlias = Floats
 """Shape (n, 4), or (k, n, 4) for k times: low x, high x, low y, high y, each rounded outward,
 without NaN."""
 

@@ -8,10 +8,10 @@ they pass overlap unless the time span is short.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes, Floats, Indices
+from exactpt.geometry.boxes import Boxes
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.rounding import U
 
 
@@ -68,7 +68,7 @@ def _order(begin: Boxes, end: Boxes) -> Indices:
     return order
 
 
-def _may_meet(one: Floats, other: Floats) -> NDArray[np.bool_]:
+def _may_meet(one: Floats, other: Floats) -> Flags:
     """Return False for pairs of boxes that are apart at all times.
 
     A distance between sides goes linearly from p to q: rows are (p, q) in x and y, as x, y at the

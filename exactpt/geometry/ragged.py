@@ -7,16 +7,14 @@ the other bodies are for `exactpt.geometry.polygon.first_self_touch`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Final, NamedTuple, TypeAlias
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.edge_pairs import near_edges
-from exactpt.kernel.doubles import Floats, Indices, native
+from exactpt.kernel.doubles import Flags, Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, TINY, U
-
-Flags: TypeAlias = NDArray[np.bool_]
 
 K: Final = 8.0 * U
 """Relative bound on the rounding of an orientation: see `segments_meet`."""

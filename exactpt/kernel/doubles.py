@@ -13,6 +13,7 @@ from exactpt.kernel.rounding import check_rounding
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
+Flags: TypeAlias = NDArray[np.bool_]
 
 INTEGERS: Final = 2.0**53
 """All integers of at most this absolute value are doubles."""
@@ -102,14 +103,14 @@ def native(counts: Indices) -> NDArray[np.intp]:
     return counts.astype(np.intp, copy=False)
 
 
-def first_true(flags: NDArray[np.bool_]) -> tuple[int, ...] | None:
+def first_true(flags: Flags) -> tuple[int, ...] | None:
     """Return the indices of the first true entry; None if there is none."""
     if not flags.any():
         return None
     return tuple(int(i) for i in np.unravel_index(int(flags.argmax()), flags.shape))
 
 
-def _refuse(wrong: NDArray[np.bool_], given: NDArray[np.generic], what: str, why: str) -> None:
+def _refuse(wrong: Flags, given: NDArray[np.generic], what: str, why: str) -> None:
     at = first_true(wrong)
     if at is not None:
         place = f"[{', '.join(map(str, at))}]" if at else ""

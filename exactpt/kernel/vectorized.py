@@ -9,22 +9,19 @@ They pay off from about 50 polynomials on, and are 6 to 8 times faster for thous
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.filters import U2, U4, U8
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY
-
-Floats: TypeAlias = NDArray[np.float64]
-Flags: TypeAlias = NDArray[np.bool_]
 
 
 class Answers(NamedTuple):
     """An `exactpt.kernel.rounding.Answer` for each polynomial: sign 0 means unsure."""
 
-    signs: NDArray[np.int64]
+    signs: Indices
     lows: Floats
     highs: Floats
 
@@ -137,7 +134,7 @@ def quadratics(
 
 
 def _near_alone(
-    s: NDArray[np.int64],
+    s: Indices,
     low: Floats,
     high: Floats,
     reach: Floats,
@@ -155,10 +152,10 @@ def _near_alone(
     return _answers(signs, later & (low <= horizon), low, high)
 
 
-def _sign(x: Floats) -> NDArray[np.int64]:
+def _sign(x: Floats) -> Indices:
     return np.where(x > 0.0, 1, -1)
 
 
-def _answers(signs: NDArray[np.int64], found: Flags, low: Floats, high: Floats) -> Answers:
+def _answers(signs: Indices, found: Flags, low: Floats, high: Floats) -> Answers:
     nothing = np.where(signs == 0, 0.0, INFINITY)
     return Answers(signs, np.where(found, low, nothing), np.where(found, high, nothing))

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final, TypeAlias, final
+from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.doubles import middles
+from exactpt.kernel.doubles import Floats, middles
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
     from exactpt.motion.float_track import FloatTrack
 
-Floats: TypeAlias = NDArray[np.float64]
 
 INSTANT: Final = 2.0**-20
 """A short time, of a normalised span."""

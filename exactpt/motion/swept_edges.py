@@ -7,10 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, crossing_pairs, overlapping_pairs
-from exactpt.kernel.doubles import Indices
+from exactpt.kernel.doubles import Flags, Indices
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.slabs import Near, slabs
@@ -140,7 +139,7 @@ class SweptEdges:
         for first, second in crossing_pairs(boxes[some], edge_boxes[others]):
             yield some[first], others[second]
 
-    def _near_others(self, body: Indices, boxes: Boxes, hulls: Boxes) -> NDArray[np.bool_]:
+    def _near_others(self, body: Indices, boxes: Boxes, hulls: Boxes) -> Flags:
         """For each box of a body, whether the body deforms, or the box of another intersects it."""
         near = self.deforms[body]
         for j, (left, right, low, high) in enumerate(hulls.tolist()):
@@ -148,7 +147,7 @@ class SweptEdges:
             near |= meets & (boxes[:, 2] <= high) & (boxes[:, 3] >= low)
         return near
 
-    def _busy(self, boxes: Boxes) -> NDArray[np.bool_]:
+    def _busy(self, boxes: Boxes) -> Flags:
         """For each body, whether it deforms, or its box intersects that of another body."""
         busy = self.deforms.copy()
         for first, second in overlapping_pairs(self.of_bodies(boxes)):

@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final, TypeAlias, final
+from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, grown
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Flags, Indices
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
 from exactpt.motion.slabs import Near
@@ -27,8 +27,6 @@ from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest, LinearContact
 from exactpt.pairs.start import Apart, Limit
 from exactpt.scene.scene import Scene
-
-Indices: TypeAlias = NDArray[np.int64]
 
 FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
@@ -136,7 +134,7 @@ class ApproachSearch:
         return near[0][may], near[1][may]
 
     @np.errstate(all="ignore")
-    def _may_be_near(self, boxes: Boxes, v: Indices, e: Indices) -> NDArray[np.bool_]:
+    def _may_be_near(self, boxes: Boxes, v: Indices, e: Indices) -> Flags:
         """Return True if each vertex may be within the distance of an edge, by their boxes.
 
         With m the middle of a box and h half its diagonal, a point of the edge is within
@@ -159,7 +157,7 @@ class ApproachSearch:
         spread = half[v] + np.maximum(half[a], half[b])
         spread += self._grown[v] + self._grown[a]
         bound = np.hypot(foot[:, 0], foot[:, 1]) - spread * (1.0 + 64.0 * U)
-        may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
+        may: Flags = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
     def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> LinearContact | None:

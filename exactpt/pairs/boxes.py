@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Final, TypeAlias, final
+from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, grown, overlapping_pairs, widen_unknown
 from exactpt.geometry.moving_boxes import moving_pairs
-from exactpt.kernel.doubles import middles
+from exactpt.kernel.doubles import Floats, Indices, middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
@@ -25,8 +24,6 @@ from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
 
-Floats: TypeAlias = NDArray[np.float64]
-Indices: TypeAlias = NDArray[np.int64]
 
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""

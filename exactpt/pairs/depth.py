@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from typing import Final, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from exactpt.kernel.square_root import root_bounds
 from exactpt.motion.body import Body
@@ -28,7 +28,7 @@ GRID: Final = 12
 ROUNDS: Final = 5
 """Grids, each on the cells around the best point of the one before."""
 
-Doubles: TypeAlias = "NDArray[np.float64]"
+Doubles: TypeAlias = "Floats"
 
 
 def have_deep_point(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point], depth: QQ) -> bool:

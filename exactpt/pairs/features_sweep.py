@@ -19,7 +19,6 @@ from fractions import Fraction
 from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.cached_property import cached_property
 from exactpt.certificates.certifier import Certifier
@@ -31,7 +30,7 @@ from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget, deadline_in, searching
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.doubles import Indices
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.slabs import Near
 from exactpt.motion.swept_edges import SweptEdges
@@ -93,9 +92,9 @@ class PairsSearch:
         self._deadline = deadline_in(max_seconds)
         self._counters = Counters()
         has_radius = [body._radius > 0 for body in scene.bodies]
-        self._has_radius: NDArray[np.bool_] = np.array(has_radius, dtype=np.bool_)
+        self._has_radius: Flags = np.array(has_radius, dtype=np.bool_)
         alone = [body.name in ignoring_self or bool(body._ring_touches) for body in scene.bodies]
-        self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
+        self._ignores_self: Flags = np.array(alone, dtype=np.bool_)
         self.certificates = 0
         self._passed: QQ | None = None
 
@@ -189,8 +188,8 @@ class PairsSearch:
         def squared(i: int, j: int) -> QQ:
             return (radii[i] + radii[j]) ** 2
 
-        def apart(i: Indices, j: Indices) -> NDArray[np.bool_]:
-            watched: NDArray[np.bool_] = (self._has_radius[i] | self._has_radius[j]) & (i != j)
+        def apart(i: Indices, j: Indices) -> Flags:
+            watched: Flags = (self._has_radius[i] | self._has_radius[j]) & (i != j)
             watched &= self._group[i] != self._group[j]
             return watched
 
@@ -219,7 +218,7 @@ class PairsSearch:
             es.append(e)
         return np.concatenate(vs), np.concatenate(es)
 
-    def _may_touch(self, v: Indices, e: Indices, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+    def _may_touch(self, v: Indices, e: Indices, boxes: Floats) -> Flags:
         """For each pair, whether the vertex can start to touch the edge.
 
         It cannot if both have the same motion, belong to one rigid body, or are ignored. A vertex
@@ -237,7 +236,7 @@ class PairsSearch:
         lasts = (v == b) | ((v == a) & ~meet)
         ignored = (self._group[i] == self._group[j]) & ((i != j) | self._ignores_self[i])
         rounded = self._has_radius[i] | self._has_radius[j]
-        may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts | rounded)
+        may: Flags = ~(together | rigid | ignored | lasts | rounded)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:

@@ -17,9 +17,9 @@ from typing import Final, final
 import numpy as np
 
 from exactpt.brief import record_in_brief
-from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body

@@ -31,14 +31,14 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Final, TypeAlias, final
+from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.cached_property import cached_property
-from exactpt.geometry.boxes import Boxes, Indices, crossing_pairs, grown
+from exactpt.geometry.boxes import Boxes, crossing_pairs, grown
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Flags, Floats, Indices
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.kernel.rounding import SLACK, U, check_rounding
 from exactpt.motion.body import Body
@@ -48,8 +48,6 @@ from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.track import Track
 from exactpt.pairs.features import FeaturePair, feature_pairs
 from exactpt.pairs.piece_pairs import PiecePair
-
-Floats: TypeAlias = NDArray[np.float64]
 
 ENOUGH: Final = 16
 """Number of pairs of features that are compared exactly."""
@@ -188,7 +186,7 @@ def _joined(some: Boxes, others: Boxes) -> Boxes:
 
 
 @np.errstate(all="ignore")
-def _may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> NDArray[np.bool_]:
+def _may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> Flags:
     """Return which pairs of a vertex and an edge may be nearest; see the module."""
     x, y = 0.5 * (boxes[:, 0] + boxes[:, 1]), 0.5 * (boxes[:, 2] + boxes[:, 3])
     off_x = np.maximum(boxes[:, 1] - x, x - boxes[:, 0])
@@ -210,7 +208,7 @@ def _may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> NDArray[n
         off_w, length, far = radius[v] + radius[end], np.hypot(ux, uy), np.hypot(zx, zy)
         error = length * off_w + far * off_edge + off_edge * off_w + 16.0 * U * length * far
         is_far |= (a != b) & (along * (ux * zx + uy * zy) < -(error * SLACK + 2.0**-900))
-    kept: NDArray[np.bool_] = ~is_far
+    kept: Flags = ~is_far
     return kept
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
-from typing import Final, NamedTuple, TypeAlias, final
+from typing import Final, NamedTuple, final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
@@ -18,8 +18,6 @@ from exactpt.motion.swept import SweptBoxes
 from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.scene.scene import Scene
-
-Floats: TypeAlias = NDArray[np.float64]
 
 SLABS: Final = 64
 """Number of slabs of time, of equal length."""
@@ -77,7 +75,7 @@ class SlabBoxes:
         box = self._of(body)[:, None, :]
         others = self._boxes
         beside = np.maximum(box, others)[..., ::2] > np.minimum(box, others)[..., 1::2]
-        meets: NDArray[np.bool_] = ~(beside[..., 0] | beside[..., 1])
+        meets: Flags = ~(beside[..., 0] | beside[..., 1])
         slabs = enumerate(meets.max(axis=1).tolist())
         for near, run in groupby(slabs, key=lambda slab: slab[1]):
             if near:

@@ -8,13 +8,11 @@ body is grown.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.doubles import native
+from exactpt.kernel.doubles import Floats, native
 from exactpt.kernel.numbers import enclosing_floats
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -23,8 +21,6 @@ from exactpt.pairs.boxes import PieceBoxes, radius_above
 from exactpt.pairs.pieces import MAX_VERTICES, MotionPiece, ScenePieces
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
-
-Floats: TypeAlias = NDArray[np.float64]
 
 
 class _OnDemand(dict[int, MotionPiece]):

@@ -8,7 +8,6 @@ from math import nextafter
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exactpt.certificates.positions import Positions, positions_at
 from exactpt.errors import InputError
@@ -17,6 +16,7 @@ from exactpt.geometry.polygon import near_groups, segments_meet
 from exactpt.geometry.predicates import Point, between, orientation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Flags, Indices
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.inside import nested_pairs
@@ -27,10 +27,9 @@ from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.incidences import tracks_just_before
 from exactpt.scene.scene import Scene
 
-Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
 """The square of the distance that two bodies keep, by their indices."""
-Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
+Apart: TypeAlias = Callable[[Indices, Indices], Flags]
 """Which pairs of bodies, by two arrays of indices, keep a distance."""
 
 MAX_PAIRS: Final = 250_000
@@ -142,8 +141,8 @@ def _with_radii(
     def squared(i: int, j: int) -> QQ:
         return (radii[i] + radii[j]) ** 2
 
-    def apart(i: Indices, j: Indices) -> NDArray[np.bool_]:
-        watched: NDArray[np.bool_] = (has_radius[i] | has_radius[j]) & (i != j)
+    def apart(i: Indices, j: Indices) -> Flags:
+        watched: Flags = (has_radius[i] | has_radius[j]) & (i != j)
         return watched
 
     if near is None:

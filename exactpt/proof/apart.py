@@ -14,8 +14,9 @@ import numpy as np
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import check_budget
+from exactpt.kernel.doubles import Floats
 from exactpt.proof.frame import Cut, Extents, Frame
-from exactpt.proof.paths import DIRECTIONS, Floats, Items, Paths, Plane
+from exactpt.proof.paths import DIRECTIONS, Items, Paths, Plane
 from exactpt.proof.whole import MOST, VECTORS, WholeBodies, direction_between
 from exactpt.proof_scene import written
 

@@ -15,8 +15,9 @@ import numpy as np
 
 from exactpt.cached_property import cached_property
 from exactpt.check_apart import Interval, planes_of, side_of
+from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ, fraction, of_double, rational
-from exactpt.proof.paths import DIRECTIONS, Floats, Items, Moved, Paths, Place, Plane, short
+from exactpt.proof.paths import DIRECTIONS, Items, Moved, Paths, Place, Plane, short
 
 if TYPE_CHECKING:
     from exactpt.proof.whole import WholeBodies

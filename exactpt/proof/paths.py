@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 import numpy as np
 
 from exactpt.cached_property import cached_property
+from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from exactpt.proof_scene import Whole
 
 Items: TypeAlias = "np.ndarray[Any, np.dtype[np.intp]]"
-Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 Place: TypeAlias = tuple[float, float]
 Moved: TypeAlias = tuple[tuple[Sequence[float], Sequence[float], bool], Place, Place]
 

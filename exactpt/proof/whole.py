@@ -9,8 +9,9 @@ from typing import Final, TypeAlias, final
 
 import numpy as np
 
+from exactpt.kernel.doubles import Floats
 from exactpt.proof.frame import Cut, Frame
-from exactpt.proof.paths import DIRECTIONS, Floats, Plane
+from exactpt.proof.paths import DIRECTIONS, Plane
 
 MOST: Final = 48
 """Number of bodies up to which whole ones are tried first."""

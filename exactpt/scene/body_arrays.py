@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from exactpt.brief import counted
 from exactpt.errors import InputError
-from exactpt.geometry.ragged import Flags, surely_simple
-from exactpt.kernel.doubles import Floats, Indices, doubles, first_true, indices, native
+from exactpt.geometry.ragged import surely_simple
+from exactpt.kernel.doubles import Flags, Floats, Indices, doubles, first_true, indices, native
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body, is_text
 from exactpt.motion.motions import REST, Translation

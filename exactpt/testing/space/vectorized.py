@@ -33,12 +33,11 @@ from __future__ import annotations
 from typing import Final, Literal, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exactpt.errors import InputError
-from exactpt.geometry.ragged import Flags
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.doubles import Floats
+from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import TINY, U, check_rounding
 from exactpt.testing.space.exact import SpaceContact, first_contact_of
@@ -76,7 +75,7 @@ class SpaceContacts:
 
     __slots__ = ("_kind", "_points", "exact", "high", "hit", "low", "refused")
 
-    def __init__(self, kind: Kind, points: NDArray[np.float64], refused: Flags) -> None:
+    def __init__(self, kind: Kind, points: Floats, refused: Flags) -> None:
         self._kind, self._points, self.refused = kind, points, refused
         self.hit: Flags = np.zeros(len(points), dtype=np.bool_)
         self.exact: Flags = np.zeros(len(points), dtype=np.bool_)
@@ -178,12 +177,12 @@ def _decide(kind: Kind, points: ArrayLike, errors: str) -> SpaceContacts:
     return contacts
 
 
-def _reason(points: NDArray[np.float64]) -> str:
+def _reason(points: Floats) -> str:
     i, k = np.argwhere(~np.isfinite(points))[0].tolist()
     return f"coordinate {'xyz'[k]} of vertex {i % 4} at t = {i // 4} is {points[i, k]}"
 
 
-def _may_touch(kind: Kind, points: NDArray[np.float64]) -> Flags:
+def _may_touch(kind: Kind, points: Floats) -> Flags:
     """Return False for queries that certainly have no contact; proofs are above."""
     count = 1 if kind == "vertex-face" else 2
     two = points.reshape(-1, 2, 4, 3)
@@ -196,7 +195,7 @@ def _may_touch(kind: Kind, points: NDArray[np.float64]) -> Flags:
     return undecided
 
 
-def _has_side(kind: Kind, two: NDArray[np.float64]) -> Flags:
+def _has_side(kind: Kind, two: Floats) -> Flags:
     """Return False if some direction separates the two sets at all times."""
     count = 1 if kind == "vertex-face" else 2
     d = (two[:, :, count:, None] - two[:, :, None, :count]).reshape(
@@ -208,7 +207,7 @@ def _has_side(kind: Kind, two: NDArray[np.float64]) -> Flags:
     return ~apart
 
 
-def _may_be_coplanar(kind: Kind, two: NDArray[np.float64]) -> Flags:
+def _may_be_coplanar(kind: Kind, two: Floats) -> Flags:
     """Return False if the cubic has no root in [0, 1], by its Bernstein coefficients."""
     base = (1, 1, 1) if kind == "vertex-face" else (0, 2, 0)
     tips = (2, 3, 0) if kind == "vertex-face" else (1, 3, 2)
@@ -240,11 +239,11 @@ def _may_be_coplanar(kind: Kind, two: NDArray[np.float64]) -> Flags:
     return result
 
 
-def _has_one_sign(rows: NDArray[np.float64], error: Floats) -> Flags:
+def _has_one_sign(rows: Floats, error: Floats) -> Flags:
     return np.asarray((rows.min(0) > error) | (rows.max(0) < -error))
 
 
-def _halves(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _halves(rows: Floats) -> tuple[Floats, Floats]:
     """Return the Bernstein coefficients of a cubic on the two halves of its interval."""
     a, b, c, d = rows
     ab, bc, cd = (a + b) / 2, (b + c) / 2, (c + d) / 2
@@ -253,11 +252,11 @@ def _halves(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.
     return np.stack([a, ab, abc, middle]), np.stack([middle, bcd, cd, d])
 
 
-def _cross(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.float64]:
+def _cross(p: Floats, q: Floats) -> Floats:
     x, y, z = p.T
     u, v, w = q.T
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], 1)
 
 
-def _dot(p: NDArray[np.float64], q: NDArray[np.float64]) -> Floats:
+def _dot(p: Floats, q: Floats) -> Floats:
     return np.asarray(p[:, 0] * q[:, 0] + p[:, 1] * q[:, 1] + p[:, 2] * q[:, 2])
