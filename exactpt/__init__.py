@@ -41,20 +41,18 @@ if TYPE_CHECKING:
     from exactpt.motion.spin import Spin
     from exactpt.pairs.approach import Approach, first_within
     from exactpt.pairs.clearance import Clearance
-    from exactpt.pairs.contact import Contact
-    from exactpt.pairs.contact import Pair as Pair
+    from exactpt.pairs.contact import Contact, ContactPoint
     from exactpt.pairs.distance import Distance, distance
     from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
     from exactpt.pairs.planner import Planner
     from exactpt.pairs.surroundings import Surroundings, clearance
     from exactpt.proof.certified import certify
     from exactpt.proof.written import Proof, prove
-    from exactpt.query.answers import Hit, Place
-    from exactpt.query.answers import Path as Path
+    from exactpt.query.answers import Hit, Place, ShortestPath
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
     from exactpt.scene.union import union
-    from exactpt.simulation.event import Event as Event
+    from exactpt.simulation.event import RunEvent
     from exactpt.simulation.history import History
     from exactpt.simulation.motion_changes import onward
     from exactpt.simulation.responses import Bounce, stop
@@ -64,8 +62,6 @@ refuse_subinterpreters()
 if isfile(f"{__path__[0]}/compiled.txt"):  # a checkout after `make compiled`
     import_module("exactpt.compiled").compare()
 
-# Event, Pair and Path are public too: but `from exactpt import *` would hide the classes of
-# threading and pathlib that have these names.
 __all__ = [
     "Affine",
     "AlgebraicNumber",
@@ -77,6 +73,7 @@ __all__ = [
     "Clearance",
     "Contact",
     "ContactInterval",
+    "ContactPoint",
     "Distance",
     "EnclosedContact",
     "ExactPTError",
@@ -91,7 +88,9 @@ __all__ = [
     "PosePath",
     "Proof",
     "Rigid",
+    "RunEvent",
     "Scene",
+    "ShortestPath",
     "Simulation",
     "Spin",
     "Surroundings",
@@ -121,7 +120,7 @@ __all__ = [
 
 _MODULES: Final = {
     "exactpt.pairs.approach": ("Approach", "first_within"),
-    "exactpt.pairs.contact": ("Contact", "Pair"),
+    "exactpt.pairs.contact": ("Contact", "ContactPoint"),
     "exactpt.collision.detector": ("first_contact",),
     "exactpt.collision.enclosed": ("EnclosedContact", "first_contact_enclosed"),
     "exactpt.pairs.planner": ("Planner",),
@@ -148,11 +147,11 @@ _MODULES: Final = {
     "exactpt.pairs.surroundings": ("Surroundings", "clearance"),
     "exactpt.pairs.distance": ("Distance", "distance"),
     "exactpt.pairs.intervals": ("ContactInterval", "contact_intervals", "contacts"),
-    "exactpt.query.answers": ("Hit", "Path", "Place"),
+    "exactpt.query.answers": ("Hit", "Place", "ShortestPath"),
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),
     "exactpt.scene.union": ("union",),
-    "exactpt.simulation.event": ("Event",),
+    "exactpt.simulation.event": ("RunEvent",),
     "exactpt.simulation.history": ("History",),
     "exactpt.simulation.motion_changes": ("onward",),
     "exactpt.simulation.responses": ("Bounce", "stop"),

@@ -86,7 +86,7 @@ def main() -> None:
     contact = exactpt.first_contact(moving, method="auto")
     print(moving)
     if contact is not None:
-        bodies = {(pair.body, pair.other) for pair in contact.pairs} | set(contact.overlaps)
+        bodies = {(pair.body, pair.other) for pair in contact.pairs} | set(contact.initial_pairs)
         pairs = ", ".join(f"{a} and {b}" for a, b in sorted(bodies))
         print(f"first contact at t = {float(contact.time)!r}: {pairs}")
 

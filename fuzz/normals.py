@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from exactpt import Contact, Pair, Scene
+from exactpt import Contact, ContactPoint, Scene
 from exactpt.kernel.numbers import QQ, power_of_two
 
 __all__ = ["wrong_normal"]
@@ -38,7 +38,7 @@ def wrong_normal(scene: Scene, contact: Contact | None) -> str | None:
     return None
 
 
-def _places(scene: Scene, pair: Pair, at: QQ) -> list[tuple[QQ, QQ]]:
+def _places(scene: Scene, pair: ContactPoint, at: QQ) -> list[tuple[QQ, QQ]]:
     """Return the positions of the vertex, and of the ends of the edge."""
     edge, other = pair.edge or 0, scene.body(pair.other)
     places = other._at(at)
@@ -46,13 +46,13 @@ def _places(scene: Scene, pair: Pair, at: QQ) -> list[tuple[QQ, QQ]]:
             places[other.end_of_edge(edge)]]  # fmt: skip
 
 
-def _side(scene: Scene, pair: Pair, at: QQ) -> int:
+def _side(scene: Scene, pair: ContactPoint, at: QQ) -> int:
     """Return 1 if the vertex is on the left of the edge, else -1."""
     (x, y), (ax, ay), (bx, by) = _places(scene, pair, at)
     return 1 if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0 else -1
 
 
-def _is_right(scene: Scene, pair: Pair, at: float, side: int | None) -> bool:
+def _is_right(scene: Scene, pair: ContactPoint, at: float, side: int | None) -> bool:
     """Return True if a normal is perpendicular to the edge, and on the given side of it."""
     if pair.normal is None:
         return False

@@ -16,7 +16,7 @@ from exactpt import (
     AlgebraicNumber,
     Body,
     Contact,
-    Pair,
+    ContactPoint,
     Pieces,
     Polynomial,
     Rigid,
@@ -293,9 +293,11 @@ def difference(
         return "time"
     if contact.kind != image.kind:
         return "kind"
-    overlaps = {frozenset(variant.name(name) for name in names) for names in contact.overlaps}
-    if overlaps != {frozenset(names) for names in image.overlaps}:
-        return "overlaps"
+    initial_pairs = {
+        frozenset(variant.name(name) for name in names) for names in contact.initial_pairs
+    }
+    if initial_pairs != {frozenset(names) for names in image.initial_pairs}:
+        return "initial_pairs"
     bodies = {body.name: body for body in scene.bodies}
     time = float(contact.time)
     expected = {_features(_image(variant, bodies, pair, time)) for pair in contact.pairs}
@@ -309,7 +311,9 @@ def difference(
     return None
 
 
-def _image(variant: Variant, bodies: Mapping[str, Body], pair: Pair, time: float) -> Pair:
+def _image(
+    variant: Variant, bodies: Mapping[str, Body], pair: ContactPoint, time: float
+) -> ContactPoint:
     body, other = bodies[pair.body], bodies[pair.other]
     return replace(
         pair,
@@ -324,7 +328,7 @@ def _image(variant: Variant, bodies: Mapping[str, Body], pair: Pair, time: float
     )
 
 
-def _features(pair: Pair) -> frozenset[tuple[str, str, int | None]]:
+def _features(pair: ContactPoint) -> frozenset[tuple[str, str, int | None]]:
     vertex = ("vertex", pair.body, pair.vertex)
     if pair.edge is None:
         return frozenset({vertex, ("vertex", pair.other, pair.other_vertex)})

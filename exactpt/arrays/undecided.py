@@ -32,8 +32,8 @@ def decide(contacts: Contacts, k: int, candidates: Sequence[Candidate], *, uncle
         return
     scene = contacts.scene(k)
     if unclear:
-        touches, overlaps = initial_touches(scene, [(0, 1)])
-        if overlaps:
+        touches, initial_pairs = initial_touches(scene, [(0, 1)])
+        if initial_pairs:
             record(contacts, k, AlgebraicNumber(scene._start), touches, initial=True)
             return
     a, b = scene.bodies

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from exactpt.collision.searches import ContactQuery
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
-    from exactpt.simulation.event import Event
+    from exactpt.simulation.event import RunEvent
     from exactpt.simulation.simulation import Simulation
 
 
@@ -240,7 +240,7 @@ def simulate(
     keep_input(scene, events)
     with writing(events) if events is not None else nullcontext() as log:
 
-        def report(event: Event) -> None:
+        def report(event: RunEvent) -> None:
             if log is not None:
                 log(f"{json.dumps(event.to_json())}\n")
             if verbose:
@@ -274,7 +274,7 @@ def _print_line(line: str, *, go_on: bool) -> None:
 def _run(
     path: Path,
     until: QQ | None,
-    report: Callable[[Event], None],
+    report: Callable[[RunEvent], None],
     *,
     quiet: bool,
     tiling: str,

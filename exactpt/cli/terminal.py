@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.pairs.intervals import ContactInterval
     from exactpt.scene.scene import Scene
-    from exactpt.simulation.event import Event
+    from exactpt.simulation.event import RunEvent
 
 
 def print_output(*lines: str) -> None:
@@ -134,7 +134,8 @@ def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> lis
             f"of {name_in_words(pair.other)} at ({x}, {y})"
         )
     lines += [
-        f"  {name_in_words(a)} and {name_in_words(b)} share a point" for a, b in contact.overlaps
+        f"  {name_in_words(a)} and {name_in_words(b)} share a point"
+        for a, b in contact.initial_pairs
     ]
     return lines
 
@@ -176,7 +177,7 @@ def name_in_words(name: str) -> str:
     return cut(name) if name.isprintable() else shorten(name)
 
 
-def event_in_words(event: Event) -> str:
+def event_in_words(event: RunEvent) -> str:
     """Return an event in words: time, kind, removed and added edges of the tiling."""
     changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
     words = [f"t = {float(event.time)!r}", event.kind, *map(name_in_words, changes)]

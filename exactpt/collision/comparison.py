@@ -9,7 +9,7 @@ def contrast(expected: Contact | None, found: Contact | None) -> str | None:
     """Return the first attribute in which two contacts of one scene differ; None if they agree.
 
     One of "missed", "found" (only one of the two is a contact), "time", "kind", "pairs" and
-    "overlaps".
+    "initial_pairs".
     """
     if expected is None or found is None:
         if (expected is None) == (found is None):
@@ -17,7 +17,7 @@ def contrast(expected: Contact | None, found: Contact | None) -> str | None:
         return "found" if expected is None else "missed"
     if found.time.compare(expected.time) != 0:
         return "time"
-    for what in ("kind", "pairs", "overlaps"):
+    for what in ("kind", "pairs", "initial_pairs"):
         if getattr(found, what) != getattr(expected, what):
             return what
     return None

@@ -126,7 +126,7 @@ class Driver:
             are known, and if there are any.
         touches: the incidences of the contact that ended the last `start` or `advance`; None
             without one.
-        overlaps: the pairs of bodies in contact at the start, as in `initial_touches`.
+        initial_pairs: the pairs of bodies in contact at the start, as in `initial_touches`.
         is_broken: whether the tiling was left in the middle of an event; set by the caller.
     """
 
@@ -143,7 +143,7 @@ class Driver:
         self.budget = Budget(None, None) if budget is None else budget
         self.since: QQ | None = None if self.tiled.tiling is None else self.tiled.scene._start
         self.touches: Sequence[Incidence] | None = None
-        self.overlaps: Sequence[tuple[int, int]] = ()
+        self.initial_pairs: Sequence[tuple[int, int]] = ()
         self.is_broken = False
 
     def start(self, tiling: str | TilingPlan, *, exact_only: bool = False) -> Contact | None:
@@ -157,12 +157,12 @@ class Driver:
         start = scene._start
         plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
         near = None if exact_only else near_pairs(plan.vertices, start)
-        touches, overlaps = initial_touches(scene, near)
-        if overlaps:
-            self.touches, self.overlaps = touches, overlaps
+        touches, initial_pairs = initial_touches(scene, near)
+        if initial_pairs:
+            self.touches, self.initial_pairs = touches, initial_pairs
             for observer in self.observers:
                 observer.on_initial_contact(scene)
-            return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
+            return contact_of(scene, AlgebraicNumber(start), touches, initial_pairs)
         self.since = start
         try:
             with collector_at_rest():  # in one piece: at its end all that is new is visited once

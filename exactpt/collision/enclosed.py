@@ -198,7 +198,7 @@ class _Search:
         """Return the names of the pairs that touch, in the order of the scene."""
         order = self._number
         met = {(pair.body, pair.other) for contact in contacts for pair in contact.pairs}
-        met.update(pair for contact in contacts for pair in contact.overlaps)
+        met.update(pair for contact in contacts for pair in contact.initial_pairs)
         return tuple(sorted({(a, b) if order[a] <= order[b] else (b, a) for a, b in met}))
 
     def _at_start(self, touch: Contact) -> _Start:

@@ -69,7 +69,7 @@ def to_features(
                 point = {"type": "Point", "coordinates": list(pair.point)}
                 add(pair.body, pair.other, point, about)
             if not answer.pairs:
-                for names in answer.overlaps:
+                for names in answer.initial_pairs:
                     add(*names, None, about)
         else:
             raise InputError(f"neither an interval nor a contact: {shorten(answer)}")

@@ -10,10 +10,10 @@ from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.track import Incidence
-from exactpt.pairs.incidences import Pair, details
+from exactpt.pairs.incidences import ContactPoint, details
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of"]
+__all__ = ["Contact", "ContactPoint", "contact_of"]
 
 
 class Found(NamedTuple):
@@ -27,40 +27,41 @@ class Found(NamedTuple):
 class Contact:
     """A contact of a scene: its time and all incidences at that time. It cannot be changed.
 
-    Contacts are equal if their time, kind, pairs and overlaps are.
+    Contacts are equal if their time, kind, pairs and initial pairs are.
 
     Args:
         time: the exact time.
         kind: see below.
         pairs: every incidence at that time.
-        overlaps: see below.
+        initial_pairs: see below.
 
     Attributes:
         kind: "initial" at the start of the scene; "self" if every incidence is one of a body
             with itself; "vertex-edge" if, of the incidences of two different bodies, one or more
             are of a vertex and an edge; "vertex-vertex" if all of these are of two vertices.
-        overlaps: at the start, the names of the pairs of bodies that share a point.
+        initial_pairs: of a contact at the start, the names of the pairs of bodies that share a
+            point: they overlap or touch. Empty for other contacts. The key of JSON is "overlaps".
     """
 
-    __slots__ = ("_pairs", "_time", "kind", "overlaps")
-    __match_args__: ClassVar = ("time", "kind", "pairs", "overlaps")
+    __slots__ = ("_pairs", "_time", "initial_pairs", "kind")
+    __match_args__: ClassVar = ("time", "kind", "pairs", "initial_pairs")
     kind: str
-    overlaps: tuple[tuple[str, str], ...]
+    initial_pairs: tuple[tuple[str, str], ...]
     _time: AlgebraicNumber
-    _pairs: tuple[Pair, ...] | Found
+    _pairs: tuple[ContactPoint, ...] | Found
 
     def __init__(
         self,
         time: AlgebraicNumber,
         kind: str,
-        pairs: tuple[Pair, ...] | Found,
-        overlaps: tuple[tuple[str, str], ...] = (),
+        pairs: tuple[ContactPoint, ...] | Found,
+        initial_pairs: tuple[tuple[str, str], ...] = (),
     ) -> None:
         keep = object.__setattr__
         keep(self, "_time", time)
         keep(self, "kind", kind)
         keep(self, "_pairs", pairs)
-        keep(self, "overlaps", overlaps)
+        keep(self, "initial_pairs", initial_pairs)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Contact cannot be changed: {name}")
@@ -73,11 +74,11 @@ class Contact:
         return self._time
 
     @property
-    def pairs(self) -> tuple[Pair, ...]:
+    def pairs(self) -> tuple[ContactPoint, ...]:
         """Every incidence at that time."""
         return self._complete()
 
-    def _complete(self) -> tuple[Pair, ...]:
+    def _complete(self) -> tuple[ContactPoint, ...]:
         pairs = self._pairs
         if isinstance(pairs, Found):
             time, pairs = details(pairs.scene, self._time, pairs.touches)
@@ -103,7 +104,7 @@ class Contact:
         if not isinstance(other, Contact):
             return NotImplemented
         return (
-            (self.kind, self.overlaps) == (other.kind, other.overlaps)
+            (self.kind, self.initial_pairs) == (other.kind, other.initial_pairs)
             and self._time == other._time
             and self.pairs == other.pairs
         )
@@ -112,24 +113,27 @@ class Contact:
         return hash((self._time, self.kind))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Contact, (self.time, self.kind, self.pairs, self.overlaps)
+        return Contact, (self.time, self.kind, self.pairs, self.initial_pairs)
 
     def __repr__(self) -> str:
         pairs = self.pairs
         first = f", {_in_brief(pairs[0])}" if pairs else ""
         more = f" and {len(pairs) - 1} more" if len(pairs) > 1 else ""
-        names = [f"{shorten(a, 20)} and {shorten(b, 20)}" for a, b in self.overlaps[:1]]
-        overlaps = f", {names[0]} overlap" if names and not pairs else ""
+        sharing = ""
+        if self.initial_pairs and not pairs:
+            one, other = self.initial_pairs[0]
+            sharing = f", {shorten(one, 20)} and {shorten(other, 20)} share a point"
         at = str(self.time)
         if len(at) > 90:
             at = f"{float(self.time)!r}..." if self.time.is_rational else repr(self.time)[1:-1]
-        return cut(f"<Contact at t = {at}, {self.kind}{first}{more}{overlaps}>")
+        return cut(f"<Contact at t = {at}, {self.kind}{first}{more}{sharing}>")
 
     @property
     def bodies(self) -> tuple[str, ...]:
         """The names of all bodies in contact, in the order in which they first occur."""
-        named = [name for pair in self.pairs for name in (pair.body, pair.other)]
-        return tuple(dict.fromkeys([*named, *(name for pair in self.overlaps for name in pair)]))
+        in_incidences = [name for pair in self.pairs for name in (pair.body, pair.other)]
+        at_start = [name for pair in self.initial_pairs for name in pair]
+        return tuple(dict.fromkeys([*in_incidences, *at_start]))
 
     def to_json(self) -> dict[str, object]:
         """Return the contact as a JSON object, see docs/format.md."""
@@ -138,8 +142,8 @@ class Contact:
             "kind": self.kind,
             "pairs": [pair.to_json() for pair in self.pairs],
         }
-        if self.overlaps:
-            data["overlaps"] = [list(names) for names in self.overlaps]
+        if self.initial_pairs:
+            data["overlaps"] = [list(names) for names in self.initial_pairs]
         return data
 
     def _repr_html_(self) -> str:
@@ -147,7 +151,7 @@ class Contact:
         return str(extension("table of a contact")(self))
 
 
-def _in_brief(pair: Pair) -> str:
+def _in_brief(pair: ContactPoint) -> str:
     """Return an incidence in a few words."""
     feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
     body, other = shorten(pair.body, 20), shorten(pair.other, 20)
@@ -158,7 +162,7 @@ def contact_of(
     scene: Scene,
     time: AlgebraicNumber,
     touches: Iterable[Incidence],
-    overlaps: Sequence[tuple[int, int]] = (),
+    initial_pairs: Sequence[tuple[int, int]] = (),
 ) -> Contact:
     """Return the contact with the given incidences.
 
@@ -166,10 +170,10 @@ def contact_of(
         scene: the scene.
         time: the time of the contact.
         touches: every incidence at that time.
-        overlaps: pairs of indices of bodies that share a point at the start.
+        initial_pairs: pairs of indices of bodies that share a point at the start.
     """
     touches = sorted(touches)
-    names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
+    names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in initial_pairs)
     return Contact(time, _kind(scene, time, touches), Found(scene, touches), names)
 
 

@@ -142,11 +142,11 @@ class PairsSearch:
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
-        initial, overlaps = initial_touches(scene)
-        overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
-        if overlaps:
+        initial, initial_pairs = initial_touches(scene)
+        initial_pairs = [(i, j) for i, j in initial_pairs if not self._ignores(i, j)]
+        if initial_pairs:
             seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
-            return contact_of(scene, AlgebraicNumber(scene._start), seen, overlaps)
+            return contact_of(scene, AlgebraicNumber(scene._start), seen, initial_pairs)
         return self._run() if scene.bodies else None
 
     @cached_property

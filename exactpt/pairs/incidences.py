@@ -21,7 +21,7 @@ from exactpt.scene.scene import Scene
 
 @final
 @dataclass(frozen=True, slots=True)
-class Pair:
+class ContactPoint:
     """An incidence: a vertex that lies on, or as a rounded one touches, an edge or a vertex.
 
     Attributes:
@@ -82,7 +82,7 @@ def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
 
 def details(
     scene: Scene, time: AlgebraicNumber, touches: Sequence[Incidence]
-) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
+) -> tuple[AlgebraicNumber, tuple[ContactPoint, ...]]:
     """Return the time in the form that does not depend on the search, and the incidences."""
     involved = {i for touch in touches for i in (touch.body, touch.other)}
     pieces = {i: _piece_before(scene.bodies[i], time, scene._start) for i in involved}
@@ -135,7 +135,7 @@ def _pair(
     touch: Incidence,
     time: AlgebraicNumber,
     outward: int,
-) -> Pair:
+) -> ContactPoint:
     v, ends = pieces[touch.body].track(touch.vertex), _ends(scene, touch, pieces[touch.other])
     normal = None
     x, y, w = v.x, v.y, v.w
@@ -147,7 +147,7 @@ def _pair(
         normal = nearest_quotient(n_x, n_w, time), nearest_quotient(n_y, n_w, time)
     elif len(ends) == 2:
         normal = _normal(outward, v, *ends, time)
-    return Pair(
+    return ContactPoint(
         kind="vertex-edge" if touch.edge >= 0 else "vertex-vertex",
         body=scene.bodies[touch.body].name,
         vertex=touch.vertex,

@@ -120,9 +120,9 @@ class LinearSearch:
         if near:
             from exactpt.pairs.start import initial_touches
 
-            touches, overlaps = initial_touches(scene, near)
-            if overlaps:
-                return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
+            touches, initial_pairs = initial_touches(scene, near)
+            if initial_pairs:
+                return contact_of(scene, AlgebraicNumber(scene._start), touches, initial_pairs)
         self._is_apart = True
         found = self._search.run(self._pieces.near(self._counts))
         return None if found is None else contact_of(scene, found.number, found.touches)

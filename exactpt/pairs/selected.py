@@ -104,11 +104,11 @@ class SelectedSearch:
     def _first_contact(self) -> Contact | None:
         scene, start = self._scene, AlgebraicNumber(self._scene._start)
         pairs = self._candidates()
-        touches, overlaps = initial_touches(scene, pairs)
-        if overlaps and not self._after_start:
-            return contact_of(scene, start, touches, overlaps)
+        touches, initial_pairs = initial_touches(scene, pairs)
+        if initial_pairs and not self._after_start:
+            return contact_of(scene, start, touches, initial_pairs)
         self._read_pieces()
-        touching = set(overlaps)
+        touching = set(initial_pairs)
         best: Earliest[tuple[tuple[int, ...], Iterable[Incidence]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
         for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):

@@ -159,11 +159,11 @@ def _with_radii(
     some = None
     if near is not None:
         some = [(number[i], number[j]) for i, j in near if i in number and j in number]
-    touches, overlaps = initial_touches(part, some)
+    touches, initial_pairs = initial_touches(part, some)
     of_plain = [t._replace(body=plain[t.body], other=plain[t.other]) for t in touches]
     touching = [ij for ij, is_deep in met.items() if not is_deep]
     at_distance = touches_at_distance(scene, touching, AlgebraicNumber(scene._start))
-    pairs = [(plain[i], plain[j]) for i, j in overlaps]
+    pairs = [(plain[i], plain[j]) for i, j in initial_pairs]
     return sorted([*of_plain, *at_distance]), sorted([*pairs, *met])
 
 

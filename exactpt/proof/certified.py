@@ -258,7 +258,7 @@ class _Certificate:
     def _last(self, found: Contact | Approach, start: Fraction) -> tuple[list[str], Fraction]:
         """Return the last line, which shows a contact, and a time up to which there is none."""
         if isinstance(found, Contact):  # without the points and normals of its incidences
-            names, time, touches = found.overlaps, found._time, found._touches(self._number)
+            names, time, touches = found.initial_pairs, found._time, found._touches(self._number)
         else:
             names, time, touches = found.pairs, found.time, []
         touches = [touch for touch in touches if touch.body != touch.other]

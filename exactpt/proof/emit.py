@@ -141,7 +141,7 @@ class ProofRun(TilingSearch):
             return
         self.contact = driver.start(self.name, exact_only=self._exact_only)
         if self.contact is not None:
-            yield self.maker.contact_at_start(driver.touches or (), driver.overlaps)
+            yield self.maker.contact_at_start(driver.touches or (), driver.initial_pairs)
             return
         made: list[str] = []
         part = Part(driver.tiled.kinetic, self.nodes, self.maker, made.extend)

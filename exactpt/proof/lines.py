@@ -73,11 +73,11 @@ class Lines:
         yield f"contact {when} {self._touch(ordered[0])}"
 
     def contact_at_start(
-        self, touches: Sequence[Incidence], overlaps: Sequence[tuple[int, int]]
+        self, touches: Sequence[Incidence], initial_pairs: Sequence[tuple[int, int]]
     ) -> str:
         """Return the last line, if there is a contact at the start."""
         start = self._nodes.scene._start
-        what = self._touch(touches[0]) if touches else self._overlap(*overlaps[0])
+        what = self._touch(touches[0]) if touches else self._overlap(*initial_pairs[0])
         return f"contact {start} {start} {what}"
 
     def none(self, end: QQ) -> Iterator[str]:

@@ -138,7 +138,7 @@ def hit_later(
 
 @final
 @dataclass(frozen=True, slots=True)
-class Path:
+class ShortestPath:
     """A shortest path: of its homotopy class, or of all.
 
     Attributes:

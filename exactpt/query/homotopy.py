@@ -16,7 +16,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.kernel.numbers import place, shorten
 from exactpt.planar.halfedge import twin, without_steps_back
-from exactpt.query.answers import Path, VertexName
+from exactpt.query.answers import ShortestPath, VertexName
 from exactpt.query.locate import find, place_of
 from exactpt.query.ray import Ray, reach
 from exactpt.query.shortest import last_step
@@ -34,7 +34,7 @@ class ShortestPaths:
         self._plane = plane
         self._sleeves = Sleeves(plane)
 
-    def path(self, p: Point, q: Point) -> Path:
+    def path(self, p: Point, q: Point) -> ShortestPath:
         """Return the shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
@@ -44,7 +44,7 @@ class ShortestPaths:
             raise self._unreachable(p, q)
         return self._tight(p, first, crossed, q)
 
-    def shortest(self, p: Point, q: Point) -> Path:
+    def shortest(self, p: Point, q: Point) -> ShortestPath:
         """Return a shortest path; its ends may be on bodies, but not in their interior."""
         ends = [self._ends_of(find(self._plane, point)[0], point) for point in (p, q)]
         if p == q or not self._plane.points:
@@ -58,7 +58,7 @@ class ShortestPaths:
         way = [(p, NO_VERTEX), *((free.points[v], v) for v in nodes[1:-1]), (q, NO_VERTEX)]
         return self._named(p, bends(way), q, step.crossed)
 
-    def shorten(self, points: Sequence[Point]) -> Path:
+    def shorten(self, points: Sequence[Point]) -> ShortestPath:
         """Return the shortest path homotopic to a polyline."""
         if not self._plane.points:
             return _path((points[0], points[-1]), (), 0)
@@ -120,7 +120,9 @@ class ShortestPaths:
                 raise InputError(f"the walk meets body {shorten(place.body)} at ({x}, {y})")
             spot = step.end
 
-    def _tight(self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point) -> Path:
+    def _tight(
+        self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point
+    ) -> ShortestPath:
         plane = self._plane
         portals = self._sleeves.portals(start, tile, crossed, goal)
         nodes = pull_tight(start, goal, portals, plane.points)
@@ -137,7 +139,9 @@ class ShortestPaths:
             raise AuditError(what)
         return UnreachableError(f"{what}: a body is around one of them")
 
-    def _named(self, start: Point, nodes: Sequence[VertexId], goal: Point, crossed: int) -> Path:
+    def _named(
+        self, start: Point, nodes: Sequence[VertexId], goal: Point, crossed: int
+    ) -> ShortestPath:
         """Return the path that bends at these nodes."""
         plane = self._plane
         points = (start, *(plane.points[v] for v in nodes), goal)
@@ -148,6 +152,6 @@ def _not_free(p: Point, body: str | None) -> InputError:
     return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {shorten(body)} has it")
 
 
-def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
+def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> ShortestPath:
     """Return a path with coordinates as `Fraction`."""
-    return Path(tuple(map(place, points)), bends, crossed)
+    return ShortestPath(tuple(map(place, points)), bends, crossed)

@@ -31,7 +31,7 @@ from exactpt.indices import VertexId
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction, shorten, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
-from exactpt.query.answers import Hit, Located, Path, Place, VertexName
+from exactpt.query.answers import Hit, Located, Place, ShortestPath, VertexName
 from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, codes_of, find, place_of
 from exactpt.query.nodes import Given, exact
@@ -138,7 +138,7 @@ class FreeSpace:
 
     # Paths
 
-    def path(self, start: PointLike, goal: PointLike) -> Path:
+    def path(self, start: PointLike, goal: PointLike) -> ShortestPath:
         """Return the shortest path of the homotopy class of one that crosses the fewest diagonals.
 
         Another homotopy class may contain a shorter path: see `shortest_path`. Free points are
@@ -151,7 +151,7 @@ class FreeSpace:
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).path(p, q)
 
-    def shortest_path(self, start: PointLike, goal: PointLike) -> Path:
+    def shortest_path(self, start: PointLike, goal: PointLike) -> ShortestPath:
         """Return a shortest path of all; it may touch bodies, but not cross them.
 
         Lengths are compared exactly; of equally short paths it is always the same one. It takes
@@ -169,7 +169,7 @@ class FreeSpace:
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).shortest(p, q)
 
-    def shorten(self, walk: Sequence[PointLike]) -> Path:
+    def shorten(self, walk: Sequence[PointLike]) -> ShortestPath:
         """Return the shortest path homotopic to a polyline, with the same ends.
 
         Args:

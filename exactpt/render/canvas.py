@@ -17,7 +17,7 @@ from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
-    from exactpt.pairs.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact, ContactPoint
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
@@ -286,7 +286,7 @@ def arrow_boxes(mark: Mark) -> list[tuple[float, float, float, float]]:
 
 
 def _mark(
-    pair: Pair,
+    pair: ContactPoint,
     touched: tuple[int, int] | None,
     pixels: dict[str, tuple[Pixel, ...]],
     window: Window,

@@ -188,5 +188,5 @@ def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, obje
         "kind": contact.kind,
         "words": contact_in_words(contact),
         "pairs": pairs,
-        "overlaps": [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps],
+        "overlaps": [f"{short(a)} and {short(b)} share a point" for a, b in contact.initial_pairs],
     }

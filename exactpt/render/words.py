@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.numbers import QQ
-    from exactpt.pairs.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact, ContactPoint
 
 
 def clean(text: str) -> str:
@@ -49,7 +49,7 @@ def time_in_words(time: AlgebraicNumber | QQ, digits: int = 12) -> str:
     return f"t ≈ {decimal} ({fraction})" if len(fraction) <= 16 else f"t ≈ {decimal}"
 
 
-def pair_in_words(pair: Pair) -> str:
+def pair_in_words(pair: ContactPoint) -> str:
     """Return the two features of an incidence: ``vertex 2 of tip on edge 4 of box``."""
     mine = f"vertex {pair.vertex} of {short(pair.body)}"
     if pair.edge is None:
@@ -73,7 +73,7 @@ def polynomial_in_words(coefficients: Sequence[object]) -> str:
 def incidences_in_words(contact: Contact) -> list[str]:
     """Return one line for every incidence, and for every two bodies that share a point."""
     return [pair_in_words(pair) for pair in contact.pairs] + [
-        f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps
+        f"{short(a)} and {short(b)} share a point" for a, b in contact.initial_pairs
     ]
 
 

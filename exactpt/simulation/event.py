@@ -20,7 +20,7 @@ _Ends: TypeAlias = tuple[tuple[Vertex, Vertex], ...]
 
 @final
 @mypyc_attr(acyclic=True)
-class Event:
+class RunEvent:
     """A change of the tiling, or a contact.
 
     Attributes:
@@ -81,13 +81,13 @@ class Event:
         edges = f"removed={self.removed!r}, added={self.added!r}"
         if len(edges) > 90:
             edges = f"{counted(len(self.removed), 'edge')} removed, {len(self.added)} added"
-        return f"Event(time={cut(repr(self.time), 80)}, kind={self.kind!r}, {edges})"
+        return f"RunEvent(time={cut(repr(self.time), 80)}, kind={self.kind!r}, {edges})"
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Event, (self.time, self.kind, self.removed, self.added)
+        return RunEvent, (self.time, self.kind, self.removed, self.added)
 
 
-def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[Event]:
+def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[RunEvent]:
     """Return the public events of a tiling that have just happened.
 
     Nothing of an event is computed until it is read, neither its time nor the names of its
@@ -95,7 +95,7 @@ def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[Event]:
     """
     moment, every = tiling.certifier.moment, tiling.vertices.all
     return [
-        Event(moment(e.time), e.kind, _vertices(every, e.removed), _vertices(every, e.added))
+        RunEvent(moment(e.time), e.kind, _vertices(every, e.removed), _vertices(every, e.added))
         for e in events
     ]
 

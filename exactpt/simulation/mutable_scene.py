@@ -14,7 +14,7 @@ from exactpt.motion.motions import Motion
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event, events_of
+from exactpt.simulation.event import RunEvent, events_of
 from exactpt.simulation.motion_changes import with_new_motion
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
@@ -126,7 +126,7 @@ class MutableScene(TiledScene):
             raise InputError(f"t = {show(now._low)} is the end of the time span")
         return now._low
 
-    def set_motions(self, motions: Mapping[str, Motion | Body]) -> list[Event]:
+    def set_motions(self, motions: Mapping[str, Motion | Body]) -> list[RunEvent]:
         """Change motions, see `Simulation.set_motions`; return the events caused at once."""
         t = self.rational_now()
         new = {
@@ -143,7 +143,7 @@ class MutableScene(TiledScene):
         self.changes += len(new)
         return events_of(self.kinetic, events)
 
-    def add(self, body: Body) -> list[Event]:
+    def add(self, body: Body) -> list[RunEvent]:
         """Add a body, see `Simulation.add`; return the events caused at once."""
         t = self.rational_now()
         if body.name in self._number:
@@ -165,7 +165,7 @@ class MutableScene(TiledScene):
         self.changes += 1
         return events_of(self.kinetic, events)
 
-    def remove(self, name: str) -> list[Event]:
+    def remove(self, name: str) -> list[RunEvent]:
         """Remove a body, see `Simulation.remove`; return the events caused at once."""
         t = self.rational_now()
         i, kinetic = self._index(name), self.kinetic
@@ -182,7 +182,7 @@ class MutableScene(TiledScene):
         self.changes += 1
         return events_of(self.kinetic, events)
 
-    def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
+    def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[RunEvent]:
         """Rebuild the tiling for these bodies; a single event lists the difference in edges."""
         before = self._diagonals()
         scene = self._end.going_on(bodies, t)
@@ -196,7 +196,7 @@ class MutableScene(TiledScene):
         self.changes += changes
         after = self._diagonals()
         removed, added = sorted(before - after), sorted(after - before)
-        return [Event(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
+        return [RunEvent(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
 
     def _diagonals(self) -> set[tuple[str, str]]:
         name, mesh = self.kinetic.vertices.name, self.kinetic.mesh_after()

@@ -21,7 +21,7 @@ from exactpt.simulation.motion_changes import GRID, onward, translation_velocity
 from exactpt.simulation.normals import Vector, normals_at
 
 if TYPE_CHECKING:
-    from exactpt.pairs.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact, ContactPoint
     from exactpt.simulation.simulation import Simulation
 
 ROUNDS: Final = 8
@@ -44,7 +44,7 @@ class _Push(NamedTuple):
         approach: the speed along it at which the bodies approach before the contact.
     """
 
-    pair: Pair
+    pair: ContactPoint
     normal: Vector
     approach: float
 
@@ -172,7 +172,7 @@ class Bounce:
         }  # fmt: skip
         return made, (Bounce, (tuple(sorted(self._fixed)),), options)
 
-    def _pushes(self, pair: Pair, bodies: dict[str, Body], t: QQ) -> list[_Push]:
+    def _pushes(self, pair: ContactPoint, bodies: dict[str, Body], t: QQ) -> list[_Push]:
         """How the first body of a pair is to be pushed; nothing if both stay."""
         if pair.body == pair.other or self._fixed.issuperset((pair.body, pair.other)):
             return []
@@ -202,7 +202,7 @@ class Bounce:
             change[name][1] += way * (goal - parting) * share * ny
         return True
 
-    def _shares(self, pair: Pair) -> list[tuple[str, float]]:
+    def _shares(self, pair: ContactPoint) -> list[tuple[str, float]]:
         """Return the share of each body of a pair in a change of relative speed; the sum is 1.
 
         It is in inverse proportion to the mass; that of a fixed body is infinite. Masses are
@@ -229,7 +229,7 @@ class Bounce:
         return body.with_motion(onward(body, t, velocity, grid=self._grid))
 
 
-def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
+def _velocities(pair: ContactPoint, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
     """Return the velocities of the vertex and of the feature that it touches."""
     first = _velocity(a, pair.vertex, t)
     if pair.edge is None:

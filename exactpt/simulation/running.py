@@ -16,7 +16,7 @@ from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event, events_of
+from exactpt.simulation.event import RunEvent, events_of
 from exactpt.simulation.history import Log
 from exactpt.simulation.mutable_scene import Choice, MutableScene
 from exactpt.simulation.reported_contact import ReportedContact, with_motions_of
@@ -81,7 +81,7 @@ class Run:
         scene = mutable.scene
         self.begun = scene._start if begun is None else begun
         self.margin = _margin_of(self.begun, scene._end)
-        self.pending: deque[Event] = deque()
+        self.pending: deque[RunEvent] = deque()
         self.contact: Contact | None = None
         self.contacts = 0
         self.reported: ReportedContact | None = None
@@ -93,7 +93,7 @@ class Run:
 
     def events(
         self, until: Rational | None, respond: Response | None, margin: Rational | None
-    ) -> Iterator[Event]:
+    ) -> Iterator[RunEvent]:
         """Yield the events up to and including a time, see `Simulation.run`."""
         last = self.mutable.scene._end
         end = last if until is None else min(rational(until), last)
@@ -106,7 +106,7 @@ class Run:
         while (event := self._next(end, respond, grid)) is not None:
             yield event
 
-    def _next(self, end: QQ, respond: Response | None, grid: QQ) -> Event | None:
+    def _next(self, end: QQ, respond: Response | None, grid: QQ) -> RunEvent | None:
         """Return the next event up to a time; None if there is none."""
         pending, is_bounded = self.pending, self._budget.is_bounded
         with self.alone:
@@ -118,7 +118,7 @@ class Run:
                 if self.contact is not None or not self._advance(end, respond, grid):
                     return None
 
-    def step(self) -> list[Event]:
+    def step(self) -> list[RunEvent]:
         """Return the events of the next time at which there are any, see `Simulation.step`."""
         with self.alone:
             while not self.pending and self.contact is None:
@@ -239,11 +239,11 @@ class Run:
         self.contacts += 1
         if self.log is not None:
             self.log.add_contact(contact)
-        self.pending.append(Event(contact.time, "contact"))
+        self.pending.append(RunEvent(contact.time, "contact"))
 
     # Changes, and how far it is
 
-    def change(self, how: Callable[[MutableScene], Iterable[Event]]) -> None:
+    def change(self, how: Callable[[MutableScene], Iterable[RunEvent]]) -> None:
         """Change motions or bodies at a rational time, and report the events that this causes.
 
         Raises:

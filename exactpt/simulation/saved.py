@@ -35,8 +35,8 @@ from exactpt.motion.infinitesimal import ring_of_copies
 from exactpt.motion.normalization import Normalization, Reach, normalization_of
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
-from exactpt.pairs.contact import Contact, Pair
-from exactpt.simulation.event import Event
+from exactpt.pairs.contact import Contact, ContactPoint
+from exactpt.simulation.event import RunEvent
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry
 from exactpt.tiling.events import Stats
@@ -315,34 +315,36 @@ def _vertices_of_time(data: Stored, count: int) -> tuple[int, int, int]:
 # Events and contacts
 
 
-def event_from_json(data: Stored) -> Event:
-    """Return the event that `Event.to_json` has written."""
+def event_from_json(data: Stored) -> RunEvent:
+    """Return the event that `RunEvent.to_json` has written."""
     removed, added = (
         tuple(_names_from_json(edge) for edge in data[key].entries())
         for key in ("removed", "added")
     )
-    return Event(number_from_json(data["time"]), data["kind"].text(), removed, added)
+    return RunEvent(number_from_json(data["time"]), data["kind"].text(), removed, added)
 
 
 def contact_from_json(data: Stored, bodies: Sequence[Body]) -> Contact:
     """Return the contact of bodies that `Contact.to_json` has written."""
     by_name = {body.name: body for body in bodies}
     pairs = tuple(_pair_from_json(pair, by_name) for pair in data["pairs"].entries())
-    overlaps: tuple[tuple[str, str], ...] = ()
+    initial_pairs: tuple[tuple[str, str], ...] = ()
     if "overlaps" in data:
-        overlaps = tuple(_names_from_json(pair, by_name) for pair in data["overlaps"].entries())
+        initial_pairs = tuple(
+            _names_from_json(pair, by_name) for pair in data["overlaps"].entries()
+        )
     kind = data["kind"].text(_CONTACT_KINDS)
-    return Contact(number_from_json(data["time"]), kind, pairs, overlaps)
+    return Contact(number_from_json(data["time"]), kind, pairs, initial_pairs)
 
 
-def _pair_from_json(data: Stored, bodies: Mapping[str, Body]) -> Pair:
-    """Return the incidence that `Pair.to_json` has written."""
+def _pair_from_json(data: Stored, bodies: Mapping[str, Body]) -> ContactPoint:
+    """Return the incidence that `ContactPoint.to_json` has written."""
     a, b = data["a"], data["b"]
     body, other = _body_from_json(a["body"], bodies), _body_from_json(b["body"], bodies)
     edge = b["edge"].integer(0, other.size - 1) if "edge" in b else None
     other_vertex = None if edge is not None else b["vertex"].integer(0, other.size - 1)
     normal = data["normal"]
-    return Pair(
+    return ContactPoint(
         data["kind"].text(_CONTACT_KINDS),
         body.name,
         a["vertex"].integer(0, body.size - 1),

@@ -20,7 +20,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
-from exactpt.simulation.event import Event
+from exactpt.simulation.event import RunEvent
 from exactpt.simulation.history import History, Log
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache, why_no_tiling
@@ -158,7 +158,7 @@ class Simulation:
         *,
         on_contact: Callable[[Self, Contact], object] | None = None,
         margin: Rational | None = None,
-    ) -> Iterator[Event]:
+    ) -> Iterator[RunEvent]:
         """Process the events up to and including a time, by default the end of the span.
 
         Yields every event after it has been processed. Without ``on_contact`` the first contact is
@@ -182,7 +182,7 @@ class Simulation:
         respond = None if on_contact is None else partial(on_contact, self)
         return self._run.events(until, respond, margin)
 
-    def step(self) -> list[Event]:
+    def step(self) -> list[RunEvent]:
         """Process the events of the next time at which there are any.
 
         Returns:
@@ -354,15 +354,15 @@ class Simulation:
         """Return True if no body intersects a segment now, see `FreeSpace.is_free`."""
         return self.space().is_free(p, q)
 
-    def path(self, start: PointLike, goal: PointLike) -> answers.Path:
+    def path(self, start: PointLike, goal: PointLike) -> answers.ShortestPath:
         """Return a shortest path of its homotopy class now, see `FreeSpace.path`."""
         return self.space().path(start, goal)
 
-    def shortest_path(self, start: PointLike, goal: PointLike) -> answers.Path:
+    def shortest_path(self, start: PointLike, goal: PointLike) -> answers.ShortestPath:
         """Return a shortest path of all now, see `FreeSpace.shortest_path`."""
         return self.space().shortest_path(start, goal)
 
-    def shorten(self, walk: Sequence[PointLike]) -> answers.Path:
+    def shorten(self, walk: Sequence[PointLike]) -> answers.ShortestPath:
         """Return the shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
         return self.space().shorten(walk)
 

@@ -94,7 +94,7 @@ def why_no_tiling(contact: Contact) -> str:
     time = f"t = {float(contact.time)!r}"
     if contact.kind != "initial":
         return f"the first contact is at {time}; there is one before it, where run(until=...) stops"
-    pairs = [*contact.overlaps, *((pair.body, pair.other) for pair in contact.pairs)]
+    pairs = [*contact.initial_pairs, *((pair.body, pair.other) for pair in contact.pairs)]
     one, other = map(shorten, pairs[0])
     which = f"body {one} touches itself" if one == other else f"bodies {one} and {other} touch"
     more = len({frozenset(pair) for pair in pairs}) - 1

@@ -185,7 +185,7 @@ def _pair_forgotten(scene: bytes, lines: Lines, _random: Random) -> Mutant:
     found = first_contact(given, method="pairs")
     if found is None or found.kind == "self":
         raise ValueError
-    pairs = {(p.body, p.other) for p in found.pairs if p.body != p.other} | set(found.overlaps)
+    pairs = {(p.body, p.other) for p in found.pairs if p.body != p.other} | set(found.initial_pairs)
     alone = certify(given, ignoring=[min(pairs)]) if len(pairs) == 1 else None
     if alone is None:
         raise ValueError

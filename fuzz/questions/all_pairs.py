@@ -37,10 +37,10 @@ from fuzz.questions.all_pairs_radii import (
 def first_contact_allpairs(scene: Scene) -> Contact | None:
     """Return the first contact in the scene's closed time span; None if there is none."""
     start = AlgebraicNumber(scene._start)
-    overlaps = _overlapping_at_start(scene)
-    if overlaps:
+    initial_pairs = _overlapping_at_start(scene)
+    if initial_pairs:
         tracks = [b._piece_after(scene._start).tracks for b in scene.bodies]
-        return contact_of(scene, start, touches_at(scene, tracks, start), overlaps)
+        return contact_of(scene, start, touches_at(scene, tracks, start), initial_pairs)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
         for j in range(i if _has_touching_rings(scene, i) else i + 1):

@@ -57,5 +57,5 @@ def _first_of_pairs(scene: Scene, ignored: set[frozenset[str]], start: QQ) -> Fo
 def _answer(contact: Contact | None) -> Found:
     if contact is None:
         return None
-    pairs = contact.overlaps or tuple((pair.body, pair.other) for pair in contact.pairs)
+    pairs = contact.initial_pairs or tuple((pair.body, pair.other) for pair in contact.pairs)
     return contact.time, {frozenset(names) for names in pairs}

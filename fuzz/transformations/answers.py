@@ -14,7 +14,7 @@ from itertools import product
 from typing import Any, Final, NamedTuple, Protocol, TypeAlias
 
 import exactpt
-from exactpt import AlgebraicNumber, Contact, FreeSpace, InputError, Pair, Simulation
+from exactpt import AlgebraicNumber, Contact, ContactPoint, FreeSpace, InputError, Simulation
 from exactpt.arrays import first_contacts
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -117,15 +117,17 @@ class _Incidence:
 def _contact(side: Side, contact: Contact | None) -> Answer:
     if contact is None:
         return None
-    overlaps = {frozenset(side.groups[name] for name in names) for names in contact.overlaps}
+    initial_pairs = {
+        frozenset(side.groups[name] for name in names) for names in contact.initial_pairs
+    }
     kind = contact.kind if contact.kind in ("initial", "self") else "later"
     if kind == "initial" and side.scene.has_radius and _has_groups(side):
         # Rounded bodies that overlap have no incidences, though other parts of them may touch.
-        return contact.time, kind, overlaps
-    return contact.time, kind, overlaps, _incidences(side, contact.pairs)
+        return contact.time, kind, initial_pairs
+    return contact.time, kind, initial_pairs, _incidences(side, contact.pairs)
 
 
-def _incidences(side: Side, pairs: Iterable[Pair]) -> list[_Incidence]:
+def _incidences(side: Side, pairs: Iterable[ContactPoint]) -> list[_Incidence]:
     """Return the incidences in terms of the old scene, each once.
 
     New vertices make incidences that the old scene does not list: of two edges, and of an edge

@@ -46,8 +46,8 @@ def _first_overlap() -> AbstractContextManager[object]:
     """Return a context in which a contact reports the first of its overlaps and pairs."""
     right = Contact.__init__
 
-    def wrong(self: Contact, time: Any, kind: Any, pairs: Any, overlaps: Any = ()) -> None:
-        right(self, time, kind, pairs, overlaps[:1])
+    def wrong(self: Contact, time: Any, kind: Any, pairs: Any, initial_pairs: Any = ()) -> None:
+        right(self, time, kind, pairs, initial_pairs[:1])
 
     return patch.object(Contact, "__init__", wrong)
 

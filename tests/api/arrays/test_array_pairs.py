@@ -170,7 +170,7 @@ def test_one_body_inside_the_other():
     assert closed.kind.tolist() == [1, 1, 1, 1, 0]
     assert closed.vertex.tolist() == [-1] * 5
     assert chain.kind.tolist() == [0] * 5
-    assert closed.contact(0).overlaps == (("0", "1"),)
+    assert closed.contact(0).initial_pairs == (("0", "1"),)
 
 
 def test_a_body_of_a_pair_is_checked_and_no_other():

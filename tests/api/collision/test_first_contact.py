@@ -22,10 +22,10 @@ def assert_same(found, expected):
         assert found is expected
         return
     assert found.time == expected.time
-    assert (found.kind, found.pairs, found.overlaps) == (
+    assert (found.kind, found.pairs, found.initial_pairs) == (
         expected.kind,
         expected.pairs,
-        expected.overlaps,
+        expected.initial_pairs,
     )
 
 

@@ -39,7 +39,7 @@ def test_what_overlaps_at_the_start_may_go_on():
     contact = first_contact(scene, method="pairs", ignoring=[["a", "b"]])
 
     assert float(contact.time) == 3
-    assert contact.overlaps == ()
+    assert contact.initial_pairs == ()
 
 
 def test_at_one_time_only_what_counts_is_told():

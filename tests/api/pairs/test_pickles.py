@@ -79,10 +79,10 @@ ANSWERS = {
     "UnreachableError": lambda: exactpt.UnreachableError("no path"),
     "AuditError": lambda: exactpt.AuditError("an invariant"),
     "ExactPTError": lambda: exactpt.ExactPTError("an error"),
-    "Event": first_event,
+    "RunEvent": first_event,
     "History": history,
     "Hit": lambda: Simulation(SCENE).space().ray_cast((3, 0), (1, 0)),
-    "Path": lambda: Simulation(SCENE).space().shortest_path((3, 0), (2, 3)),
+    "ShortestPath": lambda: Simulation(SCENE).space().shortest_path((3, 0), (2, 3)),
     "Place": lambda: replace(
         Simulation(SCENE).space().locate((3, 0)), crossed=1
     ),  # a count of steps

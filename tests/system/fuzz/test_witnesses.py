@@ -151,7 +151,7 @@ def test_times_are_mapped_exactly():
 
 def altered(contact, **changes):
     """What looks like a contact, but for some attributes."""
-    names = ("time", "kind", "pairs", "overlaps")
+    names = ("time", "kind", "pairs", "initial_pairs")
     return SimpleNamespace(**{name: getattr(contact, name) for name in names} | changes)
 
 
@@ -167,7 +167,10 @@ def test_each_kind_of_difference_is_seen():
     assert difference(plain, scene, None, image) == "found"
     assert difference(plain, scene, contact, altered(image, kind="self")) == "kind"
     assert difference(plain, scene, contact, altered(image, pairs=image.pairs[1:])) == "pairs"
-    assert difference(plain, scene, contact, altered(image, overlaps=(("a", "b"),))) == "overlaps"
+    assert (
+        difference(plain, scene, contact, altered(image, initial_pairs=(("a", "b"),)))
+        == "initial_pairs"
+    )
     assert (
         difference(plain, scene, contact, altered(image, time=AlgebraicNumber(QQ(1, 7)))) == "time"
     )

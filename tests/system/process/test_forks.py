@@ -47,7 +47,7 @@ def result_of_child(job):
 
 
 QUESTIONS = [
-    "first_contact", "Clearance", "Surroundings", "contacts", "certify", "Path", "prove",
+    "first_contact", "Clearance", "Surroundings", "contacts", "certify", "ShortestPath", "prove",
     "arrays.first_contacts", "Simulation.tiling", "EnclosedContact",
 ]  # fmt: skip
 

@@ -80,7 +80,7 @@ def test_a_small_value_has_its_usual_repr(tmp_path):
     assert repr(world.scene) == "<Scene: 2 bodies, 8 vertices, t in [0, 10]>"
     assert repr(world.simulation()) == "<Simulation of 2 bodies, tiling greedy, t = 1.0>"
     assert repr(exactpt.first_contact(world.scene).pairs[0]).startswith(
-        "Pair(kind='vertex-edge', body="
+        "ContactPoint(kind='vertex-edge', body="
     )
     assert repr(exactpt.Simulation(world.scene).tiling) == (
         "<Snapshot of the tiling greedy at t = 0: 8 nodes, 2 faces>"

@@ -114,14 +114,18 @@ def test_a_box_that_jumps_lands_again():
         ("box", 1, "floor", 2),
     ]
     assert contact.pairs[0].normal == (0, 1)
-    assert contact.overlaps == ()
+    assert contact.initial_pairs == ()
 
 
 def test_a_box_that_is_pressed_down_at_once_and_later():
     at_once = box("box", Translation([0], [0, -1]))
     contact = first_contact(Scene([at_once, FLOOR]), after_start=True)
 
-    assert (contact.time, contact.kind, contact.overlaps) == (0, "initial", (("box", "floor"),))
+    assert (contact.time, contact.kind, contact.initial_pairs) == (
+        0,
+        "initial",
+        (("box", "floor"),),
+    )
     later = Pieces([(3, Translation([0, 1])), (None, Translation([0, 1], [3, -1]))])
     assert new(box("box", later), FLOOR) == (3, {("box", "floor")})
 
@@ -179,7 +183,7 @@ def test_between_asks_about_some_pairs_alone():
     assert {(p.body, p.other) for p in contact.pairs} <= {("a", "c"), ("c", "a")}
     assert first_contact(scene, between=[("c", "d")]) is None
     assert first_contact(scene, between=[]) is None
-    assert first_contact(scene, between=[("b", "c"), ("a", "d")]).overlaps == (("b", "c"),)
+    assert first_contact(scene, between=[("b", "c"), ("a", "d")]).initial_pairs == (("b", "c"),)
     assert first_contact(scene, between=[("b", "c")], after_start=True) is None
     assert first_contact(scene, between=[("a", "d"), ("a", "c")], ignoring=[("a", "c")]).time == 7
 
@@ -189,7 +193,7 @@ def test_since_a_later_time():
 
     assert first_contact(scene, since=1).time == 2
     late = first_contact(scene, since=3)
-    assert (late.time, late.kind, late.overlaps) == (3, "initial", (("a", "b"),))
+    assert (late.time, late.kind, late.initial_pairs) == (3, "initial", (("a", "b"),))
     assert first_contact(scene, since=3, after_start=True).time == 7
     assert first_contact(scene, since=3, method="kinetic").kind == "initial"
     assert first_contact(scene, since=-5).time == 2

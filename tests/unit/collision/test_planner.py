@@ -66,7 +66,7 @@ def test_a_contact_at_the_start_is_an_initial_one():
     planner = Planner([Body("wall", [(1, -1), (3, -1), (3, 5)])], (0, 1))
     contact = planner.first_contact(BOX, Translation([0, 1]))
     assert contact.kind == "initial"
-    assert contact.overlaps == (("wall", "shape"),)
+    assert contact.initial_pairs == (("wall", "shape"),)
 
 
 def test_without_obstacles_there_is_none():

@@ -17,7 +17,7 @@ HOLE = [(1, 1), (9, 1), (9, 9), (1, 9)]
 def summary(contact):
     if contact is None:
         return None
-    return contact.time.to_json(), contact.kind, contact.pairs, contact.overlaps
+    return contact.time.to_json(), contact.kind, contact.pairs, contact.initial_pairs
 
 
 def frame(*more, **options):
@@ -86,7 +86,7 @@ def test_a_part_alone_in_another_body_is_an_overlap():
     for parts in ([FRAME, [(30, 0), (40, 0), (30, 9)]], [[(30, 0), (40, 0), (30, 9)], FRAME]):
         for small in ([[(2, 2), (3, 2), (2, 3)], [(50, 0), (51, 0), (50, 1)]],) * 2:
             scene = Scene([Body("a", parts=parts), Body("b", parts=small[::-1])], (0, 1))
-            assert first_contact(scene).overlaps == (("a", "b"),)
+            assert first_contact(scene).initial_pairs == (("a", "b"),)
             assert summary(first_contact(scene)) == summary(first_contact_allpairs(scene))
 
 

@@ -145,14 +145,18 @@ def test_at_the_start(at, pairs):
     if pairs is None:
         assert contact.kind == "vertex-edge"
         return
-    assert (contact.kind, contact.time, contact.overlaps) == ("initial", 0, (("disc", "wall"),))
+    assert (contact.kind, contact.time, contact.initial_pairs) == (
+        "initial",
+        0,
+        (("disc", "wall"),),
+    )
     assert [(pair.other, pair.edge) for pair in contact.pairs] == pairs
 
 
 def test_a_body_inside_of_another_one_overlaps_it():
     inside = disc(at=(2, 4), radius="1/100")
 
-    assert met(inside, BOX).overlaps == (("disc", "box"),)
+    assert met(inside, BOX).initial_pairs == (("disc", "box"),)
     assert met(Body("big", BOX.vertices, radius=1), disc(at=(2, 4), radius=0)).kind == "initial"
 
 
@@ -383,7 +387,7 @@ def test_some_pairs_and_a_later_start():
     bodies = [disc(), disc("post", (5, 0), 1, Translation()), WALL]
 
     assert met(*bodies, between=[("disc", "wall")]).time == 9
-    assert met(*bodies, since=4).overlaps == (("disc", "post"),)
+    assert met(*bodies, since=4).initial_pairs == (("disc", "post"),)
     assert met(*bodies, since=8).time == 9
 
 

@@ -106,7 +106,7 @@ def test_overlap_at_the_start_ends_the_search(monkeypatch):
     for bodies in ([*two, *far], [*two, *far, curved]):
         contact = first_contact(Scene(bodies, time=(0, 1)))
         assert contact.kind == "initial"
-        assert contact.overlaps == (("a", "b"),)
+        assert contact.initial_pairs == (("a", "b"),)
 
 
 def test_search_interrupted_between_pieces_has_passed_no_contact(monkeypatch):

@@ -18,7 +18,7 @@ from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event
+from exactpt.simulation.event import RunEvent
 from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
@@ -202,7 +202,9 @@ def test_an_event_is_copied_and_pickled_with_its_time(way):
 
     assert summary(other) == summary(event)
     assert repr(other) == repr(event)
-    assert repr(event).startswith("Event(time=AlgebraicNumber('37/327'), kind='hull', removed=((")
+    assert repr(event).startswith(
+        "RunEvent(time=AlgebraicNumber('37/327'), kind='hull', removed=(("
+    )
 
 
 def test_an_event_is_not_changed():
@@ -212,7 +214,7 @@ def test_an_event_is_not_changed():
         with pytest.raises(AttributeError):
             setattr(event, name, None)
     match event:
-        case Event(time, kind, removed, added):
+        case RunEvent(time, kind, removed, added):
             assert (time, kind, removed, added) == (
                 event.time, event.kind, event.removed, event.added)  # fmt: skip
 

@@ -307,7 +307,7 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
     assert unpickler.names == {
         "builtins.getattr",
         "exactpt.pairs.contact.Contact",
-        "exactpt.pairs.incidences.Pair",
+        "exactpt.pairs.incidences.ContactPoint",
         "exactpt.kernel.algebraic.AlgebraicNumber",
         "exactpt.kernel.polynomial.Polynomial",
         "exactpt.motion.body.Body",
