@@ -158,5 +158,5 @@ def changes(scene: Scene, tiling: str) -> int:
     """The number of events that change edges, up to the end; the scene has no contact."""
     driver = Driver(scene)
     driver.start(tiling)
-    driver.run(scene._end)
+    driver.run(scene.exact_end)
     return sum(driver.tiled.kinetic.stats.events.get(kind, 0) for kind in KINDS)

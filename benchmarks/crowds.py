@@ -72,8 +72,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def _arrays_of(scene: Scene) -> _Arrays:
     """The crowd of a scene, whose vertices at the start and velocities are integers."""
-    places = [body._at(QQ(0)) for body in scene.bodies]
-    after = [body._at(QQ(1)) for body in scene.bodies]
+    places = [body.exact_at(QQ(0)) for body in scene.bodies]
+    after = [body.exact_at(QQ(1)) for body in scene.bodies]
     velocities = [
         (float(b[0][0] - a[0][0]), float(b[0][1] - a[0][1]))
         for a, b in zip(places, after, strict=True)

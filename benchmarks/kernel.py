@@ -101,7 +101,7 @@ def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPol
     order = [x.compare(y) < 0 for x, y in pairwise(truth)]
     equal, same = microseconds(
         lambda f: AlgebraicNumber.root(*f).compare(AlgebraicNumber.root(*f)),
-        [(x._polynomial, x._low, x._high) for x in truth],
+        [(x.exact_polynomial, x.exact_low, x.exact_high) for x in truth],
     )
     if any(same):
         raise AuditError("a number is not equal to itself")

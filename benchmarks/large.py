@@ -102,7 +102,7 @@ def figures(tiling: str, bodies: int, events: int, contacts: int, seed: int) -> 
     if kinetic is not None and simulation.contact is None:
         total = kinetic.stats.total
         driver = Driver(scene, kinetic)
-        while many < events and driver.advance(scene._end, NOTHING) is not None:
+        while many < events and driver.advance(scene.exact_end, NOTHING) is not None:
             many = kinetic.stats.total - total
         many = kinetic.stats.total - total
     at_once = process_time() - before

@@ -78,7 +78,7 @@ def box(bodies: int, rng: Random) -> Scene:
         x, y = (QQ(rng.randint(-SPEED << 20, SPEED << 20), 1 << 20) for _ in range(2))
         outline = convex_polygon(rng, (cx, cy), WIDTH // 2 - 1, rng.randint(3, 7))
         moving.append(Body(f"b{i}", outline, Translation([0, x], [0, y])))
-    points = [p for body in moving for p in body._at(QQ(0))]
+    points = [p for body in moving for p in body.exact_at(QQ(0))]
     (left, right), (below, above) = (
         (min(p[k] for p in points) - 1, max(p[k] for p in points) + 1) for k in (0, 1)
     )
@@ -152,7 +152,10 @@ class Living:
     def _change_plans(self, rng: Random) -> float:
         """Seconds for a change of one body's velocity, at the current time."""
         simulation = self.simulation
-        now, names = simulation.now._low, [b.name for b in simulation.scene.bodies[: -len(WALLS)]]
+        now, names = (
+            simulation.now.exact_low,
+            [b.name for b in simulation.scene.bodies[: -len(WALLS)]],
+        )
         plans = []
         for name in rng.choices(names, k=self._sizes.plans):
             velocity = [QQ(rng.randint(-SPEED << 20, SPEED << 20), 1 << 20) for _ in range(2)]
@@ -174,7 +177,7 @@ def audit(simulation: Simulation) -> None:
     kinetic = _tiling_of(simulation)
     mesh = kinetic.mesh_after()
     mesh.audit()
-    kinetic.audit(mesh, PredicatesAt(kinetic.vertices, simulation.now._low))
+    kinetic.audit(mesh, PredicatesAt(kinetic.vertices, simulation.now.exact_low))
 
 
 def _tiling_of(simulation: Simulation) -> Tiling:

@@ -119,7 +119,7 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
     pending = len(tiling.queue)
     exact = tiling.vertices.counters.exact
     driver = Driver(scene, tiling)
-    _, seconds = timed(lambda: sum(1 for _ in driver.events(scene._end)))
+    _, seconds = timed(lambda: sum(1 for _ in driver.events(scene.exact_end)))
     return Measured(
         tiling.stats.total - tiling.stats.events.get("motion", 0),
         0 if tiling.fan is None else tiling.fan.changes,
@@ -132,12 +132,12 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
 
 
 def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
-    plan = plan_tiling(scene, "incremental", scene._start)
-    certifier = Certifier(plan.vertices, scene._start, scene._end, exact_only=False)
+    plan = plan_tiling(scene, "incremental", scene.exact_start)
+    certifier = Certifier(plan.vertices, scene.exact_start, scene.exact_end, exact_only=False)
     tiling = IncrementalTiling(
         plan.entry, plan.vertices, certifier, Stats(), chains=chains, fan=fan
     )
-    tiling.begin(scene._start)
+    tiling.begin(scene.exact_start)
     return tiling
 
 

@@ -52,7 +52,7 @@ def exact_first(f: IntPoly) -> AlgebraicNumber:
 def _made_anew(f: IntPoly) -> tuple[IntPoly, QQ, QQ]:
     """The polynomial and interval of a root, so that no refinement is shared between runs."""
     root = exact_first(f)
-    return root._polynomial, root._low, root._high
+    return root.exact_polynomial, root.exact_low, root.exact_high
 
 
 def _exact_before(p: tuple[IntPoly, QQ, QQ], q: tuple[IntPoly, QQ, QQ]) -> bool:

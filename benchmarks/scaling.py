@@ -142,11 +142,11 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
     """The fastest of several runs, and the memory of a separate one."""
-    start_tiling(fresh(scene), tiling, scene._start)  # imports on first use are not timed
+    start_tiling(fresh(scene), tiling, scene.exact_start)  # imports on first use are not timed
     runs = [_run_once(fresh(scene), tiling, sizes.events) for _ in range(sizes.runs)]
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
-    kilobytes = memory_of(lambda: start_tiling(given, tiling, given._start))
+    kilobytes = memory_of(lambda: start_tiling(given, tiling, given.exact_start))
     alone, simulated = (
         min(times) for times in zip(*((m.alone, m.simulated) for m in runs), strict=True)
     )
@@ -154,7 +154,7 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
-    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
+    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene.exact_start))
     certificates, pending = kinetic.certifier.made, len(kinetic.queue)
     _, seconds = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     happened = kinetic.stats.total
@@ -174,7 +174,7 @@ def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
 
 def _alone_and_simulated(scene: Scene, tiling: str, events: int) -> tuple[float, float]:
     """Processor time of some events of a tiling, and of the same events of a simulation."""
-    kinetic = start_tiling(fresh(scene), tiling, scene._start)
+    kinetic = start_tiling(fresh(scene), tiling, scene.exact_start)
     simulation = Simulation(fresh(scene), tiling=tiling)
     other = simulation.kinetic
     if other is None or events == 0:
@@ -186,7 +186,7 @@ def _alone_and_simulated(scene: Scene, tiling: str, events: int) -> tuple[float,
 
 def _events(scene: Scene, kinetic: Tiling) -> Iterable[object]:
     """The events of a tiling up to the first contact."""
-    return Driver(scene, kinetic).events(scene._end)
+    return Driver(scene, kinetic).events(scene.exact_end)
 
 
 def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
@@ -199,7 +199,7 @@ def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
 def _large(bodies: int, tiling: str, events: int, seed: int) -> Row:
     """Figures of a single run."""
     scene = _crowd(bodies, seed)
-    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
+    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene.exact_start))
     made, pending = kinetic.certifier.made, len(kinetic.queue)
     _, seconds = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     return {

@@ -152,9 +152,9 @@ def _demand_equal(base: Contact, contact: Contact, case: _Case) -> None:
 def _is_image(base: AlgebraicNumber, time: AlgebraicNumber, clock: Polynomial) -> bool:
     """Return True if clock(time) is base, the only root of its polynomial in its interval."""
     image = ZERO
-    for c in reversed(base._polynomial):
+    for c in reversed(base.exact_polynomial):
         image = image * clock + Polynomial([c])
-    low, high = base._canonical_interval()
+    low, high = base.exact_canonical_interval()
     signs = [_sign(image, time), _sign(clock - poly(low), time), _sign(poly(high) - clock, time)]
     return signs[0] == 0 and min(signs) >= 0
 
@@ -239,6 +239,6 @@ def _doubled(movers: Sequence[_Mover], late: QQ) -> list[_Mover]:
 def _composed(f: Polynomial, clock: Polynomial) -> Polynomial:
     """The composition f(clock(t))."""
     value = ZERO
-    for c in reversed(f._coefficients):
+    for c in reversed(f.exact_coefficients):
         value = value * clock + Polynomial([c])
     return value

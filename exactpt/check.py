@@ -119,7 +119,7 @@ def check_scene(
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     deadline = deadline_in(max_seconds)
-    name = plan_tiling(scene, tiling, scene._start).name
+    name = plan_tiling(scene, tiling, scene.exact_start).name
     file = scene_bytes(scene) if scene_file is None else scene_file
     proof = ProofRun(scene, tiling=name, scene_file=file, max_events=max_events)
     verdict = _verdict(proof, file, deadline)
@@ -153,7 +153,7 @@ def check_run(
 
     Args and raises: as `check_scene`.
     """
-    plan = plan_tiling(scene, tiling, scene._start)
+    plan = plan_tiling(scene, tiling, scene.exact_start)
     report = Report(plan.name)
     deadline = deadline_in(max_seconds)
     with CgalCheck() as cgal:
@@ -161,8 +161,8 @@ def check_run(
         driver = Driver(scene, observers=[witness])
         contact = driver.start(plan)
         if contact is None:
-            witness.tiling(driver.tiled.kinetic, scene._start)
-            contact = driver.run(scene._end)
+            witness.tiling(driver.tiled.kinetic, scene.exact_start)
+            contact = driver.run(scene.exact_end)
         if contact is not None:
             witness.time(contact.time)
     report.contact = None if contact is None else contact.time.to_json()
@@ -210,7 +210,7 @@ class _Witness(Observer):
         deadline: float | None,
         progress: Callable[[AlgebraicNumber], None] | None,
     ) -> None:
-        self._end = scene._end
+        self._end = scene.exact_end
         self._report = report
         self._shapes = BodyShape.of_scene(scene)
         self._cgal = cgal
@@ -257,7 +257,7 @@ class _Witness(Observer):
     def time(self, time: AlgebraicNumber) -> None:
         """Verify an event time, and that it is not before the previous one."""
         number = time.simplified()
-        root = IsolatedRoot(number._polynomial, *number._canonical_interval())
+        root = IsolatedRoot(number.exact_polynomial, *number.exact_canonical_interval())
         verdict = self._cgal.check_root(*root)
         self._report.times += 1
         if not verdict.ok:

@@ -41,8 +41,8 @@ def wrong_normal(scene: Scene, contact: Contact | None) -> str | None:
 def _places(scene: Scene, pair: ContactPoint, at: QQ) -> list[tuple[QQ, QQ]]:
     """Return the positions of the vertex, and of the ends of the edge."""
     edge, other = pair.edge or 0, scene.body(pair.other)
-    places = other._at(at)
-    return [scene.body(pair.body)._at(at)[pair.vertex], places[edge],
+    places = other.exact_at(at)
+    return [scene.body(pair.body).exact_at(at)[pair.vertex], places[edge],
             places[other.end_of_edge(edge)]]  # fmt: skip
 
 
@@ -56,7 +56,7 @@ def _is_right(scene: Scene, pair: ContactPoint, at: float, side: int | None) -> 
     """Return True if a normal is perpendicular to the edge, and on the given side of it."""
     if pair.normal is None:
         return False
-    (nx, ny), places = pair.normal, _places(scene, pair, min(QQ(at), scene._end))
+    (nx, ny), places = pair.normal, _places(scene, pair, min(QQ(at), scene.exact_end))
     (ax, ay), (bx, by) = ((float(x), float(y)) for x, y in places[1:])
     ux, uy = bx - ax, by - ay
     size = math.hypot(ux, uy)

@@ -431,7 +431,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "a radius rounded down": Mistake(
         "A bound is rounded to the wrong side.",
-        lambda: _edited(boxes, "radius_above", "(body._radius)[1]", "(body._radius)[0]"),
+        lambda: _edited(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
         "questions/convoy",
         RADIUS_IS_MASKED,
     ),

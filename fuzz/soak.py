@@ -156,11 +156,11 @@ class Soak:
         return list(weights), list(weights.values())
 
     def _sample(self, elapsed: float, events: int, contacts: int, used: float) -> Sample:
-        now = self.simulation.now._low
+        now = self.simulation.now.exact_low
         bits = max(
             max(c.numerator.bit_length(), c.denominator.bit_length())
             for body in self.simulation.scene.bodies
-            for point in body._at(now)
+            for point in body.exact_at(now)
             for c in point
         )
         memory = budget.resident_memory() / 2**20
@@ -193,14 +193,14 @@ class Soak:
         body = self._any_body()
         if body is not None:
             velocity = self.rng.randint(-8, 8), self.rng.randint(-8, 8)
-            now = self.simulation.now._low
+            now = self.simulation.now.exact_low
             self.simulation.set_motion(body.name, onward(body, now, velocity, grid=STEP))
 
     def come(self) -> None:
         """Put a new body into the box, where there is room."""
         if len(self.simulation.scene.bodies) >= MOST + len(WALLS):
             return
-        rng, now = self.rng, self.simulation.now._low
+        rng, now = self.rng, self.simulation.now.exact_low
         x, y = rng.randint(8, SIDE - 8), rng.randint(8, SIDE - 8)
         corners = [(3, 0), (0, 3), (-3, 0), (0, -3), (2, 2), (-2, 2), (-2, -2), (2, -2)]
         order = [0, 4, 1, 5, 2, 6, 3, 7]
@@ -250,7 +250,7 @@ class Soak:
 
     def prove(self) -> None:
         """Prove the next part, and have the proof checked by the independent program."""
-        now = self.simulation.now._low
+        now = self.simulation.now.exact_low
         scene = self._scene_now().until(now + self.rng.randint(1, 16) * STEP)
         text = json.dumps(to_json(scene)).encode()
         with TemporaryDirectory() as folder:
@@ -263,7 +263,7 @@ class Soak:
 
     def _scene_now(self) -> Scene:
         """The bodies from now on."""
-        return Scene(self.simulation.scene.bodies, (self.simulation.now._low, END))
+        return Scene(self.simulation.scene.bodies, (self.simulation.now.exact_low, END))
 
     def _any_body(self) -> Body | None:
         names = [b.name for b in self.simulation.scene.bodies if b.name not in WALLS]

@@ -62,7 +62,7 @@ def run_and_audit(
         return None
     audit_places(driver.tiled.kinetic.vertices)
     try:
-        contact = driver.run(scene._end)
+        contact = driver.run(scene.exact_end)
     finally:
         audit_places(driver.tiled.kinetic.vertices)
     return Audited(driver.tiled.kinetic, contact=contact is not None, gaps=audits.gaps)
@@ -78,7 +78,7 @@ class _Audits(Observer):
 
     def on_advance(self, scene: Scene, tiling: Tiling) -> None:
         """Audit the tiling between now and the next event."""
-        end = tiling.next_number() or AlgebraicNumber(scene._end)
+        end = tiling.next_number() or AlgebraicNumber(scene.exact_end)
         if tiling.now.compare(end) < 0:
             at = rational_between(tiling.now, end)
             audit_at(tiling, at)
@@ -101,7 +101,7 @@ def audit_places(vertices: Vertices) -> None:
     """
     enclosures = Enclosures(vertices.normalization)
     for moving in vertices.bodies:
-        float_tracks = enclosures.of_piece(moving.body._piece_after(moving.since))
+        float_tracks = enclosures.of_piece(moving.body.exact_piece_after(moving.since))
         for v in moving.ring:
             float_track = float_tracks[vertices.all[v].index]
             expected = float_track.x0, float_track.y0, float_track.x1, float_track.y1

@@ -25,7 +25,9 @@ def _arrays(scene: Scene) -> dict[str, Any]:
     changes no time.
     """
     bodies = scene.bodies
-    outlines = [[(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices] for body in bodies]
+    outlines = [
+        [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices] for body in bodies
+    ]
     motions = [_motion(body) for body in bodies]
     corner = outlines[0][0]
     rows = [[p[0] - corner[0], p[1] - corner[1]] for outline in outlines for p in outline]
@@ -37,7 +39,7 @@ def _arrays(scene: Scene) -> dict[str, Any]:
     moved = np.array([[[_double(c * factor) for c in f] for f in m] for m in coefficients])
     offsets = np.cumsum([0, *map(len, outlines)])
     closed = np.array([body.closed for body in bodies])
-    time = [_double(scene._start), _double(scene._end)]
+    time = [_double(scene.exact_start), _double(scene.exact_end)]
     return {
         "vertices": vertices,
         "offsets": offsets,
@@ -79,7 +81,7 @@ def _motion(body: Body) -> tuple[tuple[QQ, ...], tuple[QQ, ...]]:
         raise UnsuitableScene(f"body {body.name!r} does more than translate")
     if any(f.degree > 0 for vertex in body.vertices for f in vertex):
         raise UnsuitableScene(f"body {body.name!r} deforms")
-    x, y = motion.x._coefficients, motion.y._coefficients
+    x, y = motion.x.exact_coefficients, motion.y.exact_coefficients
     return x or (QQ(0),), y or (QQ(0),)
 
 

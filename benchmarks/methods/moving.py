@@ -64,9 +64,9 @@ class Moving:
         xs: list[list[float]] = []
         ys: list[list[float]] = []
         for body in scene.bodies:
-            if any(scene._start < t < scene._end for t in body._breakpoints):
+            if any(scene.exact_start < t < scene.exact_end for t in body.exact_breakpoints):
                 raise UnsuitableScene("motions in pieces")
-            tracks = body._piece_after(scene._start).tracks
+            tracks = body.exact_piece_after(scene.exact_start).tracks
             if any(len(track.w) > 1 for track in tracks):
                 raise UnsuitableScene("bodies that turn")
             rigid = all(t.motion is not None and t.motion == tracks[0].motion for t in tracks)
@@ -83,7 +83,7 @@ class Moving:
         self.body: Indices = np.repeat(
             np.arange(len(self.shapes), dtype=np.int32), [shape.size for shape in self.shapes]
         )
-        self.start, self.end = float(scene._start), float(scene._end)
+        self.start, self.end = float(scene.exact_start), float(scene.exact_end)
 
     @property
     def degree(self) -> int:

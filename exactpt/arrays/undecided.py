@@ -34,17 +34,17 @@ def decide(contacts: Contacts, k: int, candidates: Sequence[Candidate], *, uncle
     if unclear:
         touches, initial_pairs = initial_touches(scene, [(0, 1)])
         if initial_pairs:
-            record(contacts, k, AlgebraicNumber(scene._start), touches, initial=True)
+            record(contacts, k, AlgebraicNumber(scene.exact_start), touches, initial=True)
             return
     a, b = scene.bodies
-    squared = (a._radius + b._radius) ** 2
+    squared = (a.exact_radius + b.exact_radius) ** 2
     p = None if squared else straight_pieces(a)
     q = p and straight_pieces(b)
     if p and q:
-        span = span_of(scene._start, scene._end)
+        span = span_of(scene.exact_start, scene.exact_end)
         found = first_incidence(p[0][0], q[0][0], span, candidates)
     else:
-        found = first_at_distance((a, b), scene._start, scene._end, candidates, squared)
+        found = first_at_distance((a, b), scene.exact_start, scene.exact_end, candidates, squared)
     touches = [] if found is None else sorted(renumbered(found.touches, 0, 1))
     record(contacts, k, None if found is None else found.number, touches, initial=False)
 
@@ -58,4 +58,4 @@ def search(contacts: Contacts, k: int) -> None:
         return
     numbers = {body.name: i for i, body in enumerate(scene.bodies)}
     initial = contact.kind == "initial"
-    record(contacts, k, contact._time, contact._touches(numbers), initial=initial)
+    record(contacts, k, contact.exact_time, contact.exact_incidences(numbers), initial=initial)

@@ -83,11 +83,11 @@ def contact_between(scene: Scene, touch: Incidence, low: float, high: float) -> 
         low: a time before the contact, not before the start.
         high: a time not before it.
     """
-    pieces = [body._piece_after(scene._start) for body in scene.bodies]
+    pieces = [body.exact_piece_after(scene.exact_start) for body in scene.bodies]
     one, other = pieces[touch.body], pieces[touch.other]
     ends = touch.edge, scene.bodies[touch.other].end_of_edge(touch.edge)
     pair = FeaturePair(touch, one.track(touch.vertex), tuple(map(other.track, ends)))
-    until = min(of_double(high), scene._end)
+    until = min(of_double(high), scene.exact_end)
     f = pair.at_distance(QQ(0))
     root = next(roots_after(f, AlgebraicNumber(of_double(low)), until), None)
     return None if root is None else contact_of(scene, root.time, [touch]).to_json()

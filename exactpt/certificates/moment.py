@@ -104,4 +104,4 @@ def _isolated(f: IntPoly, time: EventTime, normalization: Normalization) -> Alge
         return AlgebraicNumber(low)
     if sign_at(p, high) == below:
         raise AuditError(f"no failure between t = {float(low)!r} and {float(high)!r}")
-    return AlgebraicNumber._root(p, low, high)
+    return AlgebraicNumber.exact_root(p, low, high)

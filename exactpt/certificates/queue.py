@@ -356,7 +356,7 @@ def _simplest(times: list[EventTime]) -> EventTime:
 
 
 def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
-    return len(number._polynomial), number._polynomial
+    return len(number.exact_polynomial), number.exact_polynomial
 
 
 def _extended(key: vec[i32], length: i64) -> vec[i32]:

@@ -44,7 +44,7 @@ class BodyShape(NamedTuple):
     @classmethod
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
         """Return the shapes of all bodies, with their constant orientation."""
-        return [cls._of_body(body, body._at(scene._start)) for body in scene.bodies]
+        return [cls._of_body(body, body.exact_at(scene.exact_start)) for body in scene.bodies]
 
     @classmethod
     def _of_body(cls, body: Body, points: Sequence[Point]) -> BodyShape:

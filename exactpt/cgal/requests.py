@@ -164,6 +164,6 @@ def polynomial_words(f: Sequence[int]) -> str:
 def root_words(root: RootClaim) -> str:
     """Return a root: its polynomial and the interval that isolates it."""
     if not isinstance(root, IsolatedRoot):
-        root = IsolatedRoot(root._polynomial, root._low, root._high)
+        root = IsolatedRoot(root.exact_polynomial, root.exact_low, root.exact_high)
     low, high = _rational_words(root.low), _rational_words(root.high)
     return f"polynomial {polynomial_words(root.polynomial)} between {low} {high}"

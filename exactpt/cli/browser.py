@@ -34,7 +34,7 @@ def answer(scene: str, method: str, tiling: str) -> str:
         contact = search.run_to_contact()
         found = {
             "contact": contact and contact.to_json(),
-            "until": str(given._end),
+            "until": str(given.exact_end),
             "tiling": search.name,
             "stats": search.stats,
         }

@@ -31,7 +31,7 @@ def collide_all(
         scene = load(path, until)
         found = contacts(scene)
         lines = intervals_in_words(scene, found)
-        answer = {"intervals": [i.to_json() for i in found], "until": str(scene._end)}
+        answer = {"intervals": [i.to_json() for i in found], "until": str(scene.exact_end)}
     click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(lines))
     return 1 if exit_code and found else 0
 
@@ -47,7 +47,7 @@ def collide_enclosed(
         scene = load(path, until)
         found = first_contact_enclosed(scene)
         lines = bounds_in_words(scene, found)
-        answer = {"enclosed": found and found.to_json(), "until": str(scene._end)}
+        answer = {"enclosed": found and found.to_json(), "until": str(scene.exact_end)}
     click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(lines))
     return 1 if exit_code and found is not None else 0
 

@@ -39,12 +39,12 @@ def progress(
     if quiet or not is_terminal():
         yield None
         return
-    start, step = scene._start, (scene._end - scene._start) / _STEPS
+    start, step = scene.exact_start, (scene.exact_end - scene.exact_start) / _STEPS
     with click.progressbar(length=_STEPS, label=label, file=sys.stderr) as bar:
 
         def reached(time: AlgebraicNumber) -> None:
             time.refine_to(step)  # exactly: a span may be too long or too short for doubles
-            bar.update(max(0, int(floor((time._low - start) / step)) - bar.pos))
+            bar.update(max(0, int(floor((time.exact_low - start) / step)) - bar.pos))
 
         yield reached
 

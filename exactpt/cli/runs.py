@@ -165,7 +165,7 @@ def _first_contact(
     try:
         with within_budget(question.max_seconds):
             given = load(path, until, since)
-            answer |= {"until": str(given._end), "tiling": question.tiling}
+            answer |= {"until": str(given.exact_end), "tiling": question.tiling}
             if question.proof is not None or question.certificate is not None:
                 question = question._replace(scene_file=path.read_bytes())
             search = search_for(given, question)

@@ -124,7 +124,7 @@ def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> lis
     ``new`` is "new " for a contact after the start.
     """
     if contact is None:
-        return [f"no {new}contact from t = {scene._start} to t = {scene._end}"]
+        return [f"no {new}contact from t = {scene.exact_start} to t = {scene.exact_end}"]
     lines = [f"first {new}contact at t = {_when(contact.time)}, kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
@@ -166,10 +166,10 @@ def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
 def _when(time: AlgebraicNumber) -> str:
     """Return the nearest double, and the exact number."""
     if time.is_rational:
-        return f"{float(time)!r} ({time._low})"
+        return f"{float(time)!r} ({time.exact_low})"
     from exactpt.render.words import polynomial_in_words
 
-    return f"{float(time)!r} (root of {polynomial_in_words(time._polynomial)})"
+    return f"{float(time)!r} (root of {polynomial_in_words(time.exact_polynomial)})"
 
 
 def name_in_words(name: str) -> str:

@@ -65,7 +65,7 @@ def tile(
         given = load(scene)
         snapshot = tile_at(
             given,
-            given._start if at is None else at,
+            given.exact_start if at is None else at,
             tiling=tiling,
             by_running=by_running,
             max_events=max_events,

@@ -141,7 +141,7 @@ class Driver:
         self.tiled = TiledScene(scene, tiling) if isinstance(scene, Scene) else scene
         self.observers = list(observers)
         self.budget = Budget(None, None) if budget is None else budget
-        self.since: QQ | None = None if self.tiled.tiling is None else self.tiled.scene._start
+        self.since: QQ | None = None if self.tiled.tiling is None else self.tiled.scene.exact_start
         self.touches: Sequence[Incidence] | None = None
         self.initial_pairs: Sequence[tuple[int, int]] = ()
         self.is_broken = False
@@ -154,7 +154,7 @@ class Driver:
             InputError: see `plan_tiling`.
         """
         scene = self.tiled.scene
-        start = scene._start
+        start = scene.exact_start
         plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
         near = None if exact_only else near_pairs(plan.vertices, start)
         touches, initial_pairs = initial_touches(scene, near)

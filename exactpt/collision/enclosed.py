@@ -166,16 +166,18 @@ class _Search:
         self._scene = scene
         self._selection = selection
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
-        self._start, self._end = scene._start, scene._end
+        self._start, self._end = scene.exact_start, scene.exact_end
         self._errors = [displacement(body, self._start, self._end) for body in scene.bodies]
-        self._contact = scene._start  # a rational just after the first contact of the given bodies
+        self._contact = (
+            scene.exact_start
+        )  # a rational just after the first contact of the given bodies
         self._passing: list[tuple[Body, Body, int, QQ]] = []  # the points on edges at that time
 
     def run(self) -> EnclosedContact | None:
         exact = self._known()
         known = exact[0].time if exact else None
         bodies = zip(self._scene.bodies, self._errors, strict=True)
-        wide = [body.with_radius(body._radius + e) if e else body for body, e in bodies]
+        wide = [body.with_radius(body.exact_radius + e) if e else body for body, e in bodies]
         touch = self._first(wide)
         if touch is None or (known is not None and known < touch.time):
             return None if known is None else EnclosedContact(known, known, self._pairs(*exact))
@@ -235,7 +237,7 @@ class _Search:
         if contact is None:
             return None
         contact.time.refine_to((self._end - self._start) * power_of_two(-FINEST))
-        self._contact = contact.time._high
+        self._contact = contact.time.exact_high
         self._passing = self._points_on_edges(contact)
         before: QQ | None = None
         for t in self._times(low, contact.time):
@@ -253,7 +255,7 @@ class _Search:
         finest = span * power_of_two(-FINEST)
         for time in (low, begin):
             time.refine_to(finest)
-        first, step = begin._high, max((begin._high - low._low) / 8, finest)
+        first, step = begin.exact_high, max((begin.exact_high - low.exact_low) / 8, finest)
         t = first
         while t < self._end:
             yield t
@@ -264,7 +266,7 @@ class _Search:
 
     def _earlier(self, low: AlgebraicNumber, before: QQ, sure: QQ) -> QQ:
         """Return a time of certain contact of two bodies, near a time of possible contact."""
-        while sure - before > (sure - low._low) / 16:
+        while sure - before > (sure - low.exact_low) / 16:
             check_budget()
             middle = (before + sure) / 2
             before, sure = (before, middle) if self._is_sure(middle) else (middle, sure)
@@ -293,12 +295,12 @@ class _Search:
 
 def _may_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     """Return True if two bodies, of which a point is out of place by an error, may touch at t."""
-    reach = a._radius + b._radius + error
+    reach = a.exact_radius + b.exact_radius + error
     return squared_distance(a, b, t) <= reach * reach
 
 
 def _corners(body: Body, t: QQ) -> list[tuple[QQ, QQ]]:
     """Return two corners of a box that contains a body."""
-    (left, right), (bottom, top) = ((min(c), max(c)) for c in zip(*body._at(t), strict=True))
-    r = body._radius
+    (left, right), (bottom, top) = ((min(c), max(c)) for c in zip(*body.exact_at(t), strict=True))
+    r = body.exact_radius
     return [(left - r, bottom - r), (right + r, top + r)]

@@ -65,4 +65,4 @@ class TilingSearch:
         """
         with searching(None, self.contact_free_until), self._budget.held():
             contact = self.driver.start(self.name, exact_only=self._exact_only)
-            return self.driver.run(self._scene._end) if contact is None else contact
+            return self.driver.run(self._scene.exact_end) if contact is None else contact

@@ -71,7 +71,7 @@ def scene_of(
                 found.add_or_mend(shape)
             else:
                 found.add_what_is_valid(shape, skipped)
-    return empty.going_on(found.bodies.values(), empty._start)
+    return empty.going_on(found.bodies.values(), empty.exact_start)
 
 
 @final

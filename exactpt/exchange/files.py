@@ -254,7 +254,7 @@ def _text_of(
     """Return the text of a file of shapes, or of moving features, see `write_shapes`."""
     if kind == "mfjson":
         return mfjson.mfjson_of(scene)
-    shapes = shapes_at(scene, scene._start if at is None else at)
+    shapes = shapes_at(scene, scene.exact_start if at is None else at)
     if scene.has_radius:
         from exactpt.exchange.shapely_adapter import outlined
 
@@ -280,7 +280,7 @@ def lost_by_writing(
             losses.count("motion", "body")
         elif has_assumed_error(body.motion):
             losses.count("error of the motion", "body")
-        if kind != "mfjson" and body._radius:
+        if kind != "mfjson" and body.exact_radius:
             losses.count("radius", "body")
         if not _keeps_name(body.name, i, kind):
             losses.count("name", "body")

@@ -85,7 +85,7 @@ def to_datetime(time: Rational | AlgebraicNumber) -> datetime:
         since = timedelta(microseconds=int(round(exact, 6) * 10**6))
         return datetime(1970, 1, 1, tzinfo=UTC) + since
     except OverflowError:
-        when = show(exact._low) if exact.is_rational else repr(float(exact))
+        when = show(exact.exact_low) if exact.is_rational else repr(float(exact))
         raise InputError(f"a date has a year from 1 to 9999: t = {when}") from None
 
 

@@ -386,7 +386,7 @@ def _place(pose: Json, at: str, losses: Losses) -> Point:
 def _body(path: _Path, name: str, holes: Holes) -> Body:
     """Return the body; it translates in pieces if its shapes are translates of each other."""
     rests = [body_of(shape, name, holes=holes) for shape in path.shapes]
-    first, frames = rests[0], [rest._at(path.times[0]) for rest in rests]
+    first, frames = rests[0], [rest.exact_at(path.times[0]) for rest in rests]
     for i, (frame, shape) in enumerate(zip(frames, path.shapes, strict=True)):
         if len(frame) != len(frames[0]):
             vertices = counted(len(frame), "vertex")
@@ -453,14 +453,14 @@ def mfjson_of(scene: Scene) -> str:
 
 def _moving(scene: Scene, i: int, where: str) -> dict[str, object]:
     body = scene.bodies[i]
-    inner = [t for t in body._breakpoints if scene._start < t < scene._end]
-    times = [scene._start, *inner, scene._end]
-    if body._radius:
+    inner = [t for t in body.exact_breakpoints if scene.exact_start < t < scene.exact_end]
+    times = [scene.exact_start, *inner, scene.exact_end]
+    if body.exact_radius:
         raise InputError(f"{where}: moving features have no radius: write a scene (.json)")
     if len(body.parts) > 1:
         raise InputError(f"{where}: moving features have one part each: write a scene (.json)")
     for t in times[:-1]:
-        tracks = body._piece_after(t).tracks
+        tracks = body.exact_piece_after(t).tracks
         if any(max(len(p.x), len(p.y)) > 2 or len(p.w) > 1 for p in tracks):
             raise InputError(
                 f"{where}: its vertices do not move straight from t = {show(t)} on, which moving "

@@ -106,9 +106,9 @@ def shapes_at(scene: Scene, time: Rational | AlgebraicNumber) -> list[Shape]:
         InputError: if the time is outside the time span.
     """
     at = time if isinstance(time, AlgebraicNumber) else AlgebraicNumber(time)
-    if at.compare_rational(scene._start) < 0 or at.compare_rational(scene._end) > 0:
-        span = f"from {show(scene._start)} to {show(scene._end)}"
-        when = show(at._low) if at.is_rational else repr(float(at))
+    if at.compare_rational(scene.exact_start) < 0 or at.compare_rational(scene.exact_end) > 0:
+        span = f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
+        when = show(at.exact_low) if at.is_rational else repr(float(at))
         raise InputError(f"t = {when} is outside the time span {span}")
     return [shape_at(body, at) for body in scene.bodies]
 
@@ -116,7 +116,7 @@ def shapes_at(scene: Scene, time: Rational | AlgebraicNumber) -> list[Shape]:
 def shape_at(body: Body, at: AlgebraicNumber) -> Shape:
     """Return a body at a time as a shape, see `shapes_at`."""
     if at.is_rational:
-        points = body._at(at._low)
+        points = body.exact_at(at.exact_low)
     else:
         points = [(rational(x), rational(y)) for x, y in body.at(at, DIGITS)]
     parts = [
@@ -126,7 +126,7 @@ def shape_at(body: Body, at: AlgebraicNumber) -> Shape:
             _kind(body),
             points[outline.start : outline.stop],
             [points[hole.start : hole.stop] for hole in holes],
-            body._radius,
+            body.exact_radius,
             properties=body.properties or None,
         )
         for outline, *holes in body.parts

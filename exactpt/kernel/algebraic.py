@@ -68,17 +68,21 @@ class AlgebraicNumber(RealNumber):
         differ = False
         while True:
             check_budget()
-            if self._high < other._low:
+            if self.exact_high < other.exact_low:
                 return -1
-            if self._low > other._high:
+            if self.exact_low > other.exact_high:
                 return 1
-            if other._low == other._high:
-                return self.compare_rational(other._low)
-            if self._low == self._high:
-                return -other.compare_rational(self._low)
-            width, width_of_other = self._high - self._low, other._high - other._low
+            if other.exact_low == other.exact_high:
+                return self.compare_rational(other.exact_low)
+            if self.exact_low == self.exact_high:
+                return -other.compare_rational(self.exact_low)
+            width, width_of_other = (
+                self.exact_high - self.exact_low,
+                other.exact_high - other.exact_low,
+            )
             if not differ and (
-                max(width, width_of_other) <= FINE or self._polynomial == other._polynomial
+                max(width, width_of_other) <= FINE
+                or self.exact_polynomial == other.exact_polynomial
             ):
                 if self._shares_root(other):
                     return 0
@@ -87,38 +91,42 @@ class AlgebraicNumber(RealNumber):
             (self if width >= width_of_other else other).refine()
 
     def _shares_root(self, other: AlgebraicNumber) -> bool:
-        low, high = max(self._low, other._low), min(self._high, other._high)
+        low, high = max(self.exact_low, other.exact_low), min(self.exact_high, other.exact_high)
         if low >= high:
             return False
-        common = self._polynomial
-        if common != other._polynomial:
-            common = greatest_common_divisor(common, other._polynomial)
-        # common divides self._polynomial, which has one simple root in [self._low, self._high];
-        # its sign changes in [low, high] (the ends are not roots) iff that root is common.
+        common = self.exact_polynomial
+        if common != other.exact_polynomial:
+            common = greatest_common_divisor(common, other.exact_polynomial)
+        # common divides self.exact_polynomial, which has one simple root in
+        # [self.exact_low, self.exact_high]. Its sign changes in [low, high], whose ends are no
+        # roots, if and only if that root is common.
         return len(common) > 1 and sign_at(common, low) * sign_at(common, high) < 0
 
     def sign_of(self, f: IntPoly) -> int:
         """Return the sign of f at this number."""
-        if self._low == self._high:
-            return sign_at(f, self._low)
-        if len(f) >= len(self._polynomial):
-            f = positive_remainder(f, self._polynomial)
+        if self.exact_low == self.exact_high:
+            return sign_at(f, self.exact_low)
+        if len(f) >= len(self.exact_polynomial):
+            f = positive_remainder(f, self.exact_polynomial)
         if len(f) <= 1:
             return sign(f[0]) if f else 0
         if len(f) == 2:
             return sign(f[1]) * self.compare_rational(QQ(-f[0], f[1]))
-        s = sign_on(f, self._low, self._high)
+        s = sign_on(f, self.exact_low, self.exact_high)
         if s:
             return s
-        common = greatest_common_divisor(f, self._polynomial)
-        if len(common) > 1 and sign_at(common, self._low) * sign_at(common, self._high) < 0:
+        common = greatest_common_divisor(f, self.exact_polynomial)
+        if (
+            len(common) > 1
+            and sign_at(common, self.exact_low) * sign_at(common, self.exact_high) < 0
+        ):
             return 0
         while not s:
             check_budget()
             self.refine()
-            if self._low == self._high:
-                return sign_at(f, self._low)
-            s = sign_on(f, self._low, self._high)
+            if self.exact_low == self.exact_high:
+                return sign_at(f, self.exact_low)
+            s = sign_on(f, self.exact_low, self.exact_high)
         return s
 
     def sign_after(self, f: IntPoly) -> int:
@@ -153,9 +161,10 @@ class AlgebraicNumber(RealNumber):
         the same on every machine, whatever comparisons have refined the number. For a
         rational, even one not yet known to be rational, both bounds are the number.
         """
-        return place(self._canonical_interval())
+        return place(self.exact_canonical_interval())
 
-    def _canonical_interval(self) -> tuple[QQ, QQ]:
+    def exact_canonical_interval(self) -> tuple[QQ, QQ]:
+        """Return `canonical_interval` in rationals of GMP."""
         return canonical_interval(self)
 
     def enclosure(self) -> tuple[float, float]:
@@ -165,7 +174,7 @@ class AlgebraicNumber(RealNumber):
         """
         return enclosing_doubles(self)
 
-    def _as_root_of(self, f: IntPoly) -> AlgebraicNumber:
+    def exact_as_root_of(self, f: IntPoly) -> AlgebraicNumber:
         """Return this number, represented as a root of f if it is irrational.
 
         Args:
@@ -176,10 +185,10 @@ class AlgebraicNumber(RealNumber):
         p = square_free(f)
         slope = derivative(p)
         # An interval on which p is monotone isolates the root.
-        while not sign_on(slope, self._low, self._high):
+        while not sign_on(slope, self.exact_low, self.exact_high):
             check_budget()
             self.refine()
-        return AlgebraicNumber._root(p, self._low, self._high)
+        return AlgebraicNumber.exact_root(p, self.exact_low, self.exact_high)
 
     def minimal_polynomial(self) -> tuple[int, ...]:
         """Return the irreducible integer polynomial with this root, constant term first.
@@ -190,7 +199,7 @@ class AlgebraicNumber(RealNumber):
         Raises:
             ImportError: if a polynomial must be factored and neither is installed.
         """
-        f = self.simplified()._polynomial
+        f = self.simplified().exact_polynomial
         if len(f) > 3:
             from exactpt.kernel.factors import irreducible_factors
 
@@ -198,7 +207,7 @@ class AlgebraicNumber(RealNumber):
             f = next(
                 g
                 for g in irreducible_factors(f)
-                if sign_at(g, self._low) * sign_at(g, self._high) < 0
+                if sign_at(g, self.exact_low) * sign_at(g, self.exact_high) < 0
             )
         return tuple(map(int, f))
 
@@ -221,11 +230,11 @@ class AlgebraicNumber(RealNumber):
                 f"an irrational number, {shorten(self)}: use .low, .high or float(); "
                 "positions of bodies at it are decimals, by at(time, digits=30)"
             )
-        return int(self._low.numerator), int(self._low.denominator)
+        return int(self.exact_low.numerator), int(self.exact_low.denominator)
 
     def __hash__(self) -> int:
         """Return the hash of the rational, or of the double nearest to an irrational number."""
-        return hash(self._low) if self.simplified().is_rational else hash(float(self))
+        return hash(self.exact_low) if self.simplified().is_rational else hash(float(self))
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, AlgebraicNumber):
@@ -255,12 +264,12 @@ class AlgebraicNumber(RealNumber):
     def to_json(self) -> dict[str, object]:
         """Return the number as a JSON object, see docs/format.md; a canonical form of it."""
         number = self.simplified()
-        low, high = number._canonical_interval()
+        low, high = number.exact_canonical_interval()
         return {
             "approx": finite(float(number)),
             "low": str(low),
             "high": str(high),
-            "polynomial": [str(c) for c in number._polynomial],
+            "polynomial": [str(c) for c in number.exact_polynomial],
         }
 
 

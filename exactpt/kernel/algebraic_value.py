@@ -88,8 +88,8 @@ def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
     if t.sign_of(d) == 0:
         raise InputError("the denominator vanishes")
     if not n or t.is_rational:
-        return AlgebraicNumber(evaluate(n, t._low) / evaluate(d, t._low))
-    p = t._polynomial
+        return AlgebraicNumber(evaluate(n, t.exact_low) / evaluate(d, t.exact_low))
+    p = t.exact_polynomial
     common = greatest_common_divisor(p, d)
     if len(common) > 1:
         p = quotient(p, common)
@@ -102,7 +102,7 @@ def quotient_range(n: IntPoly, d: IntPoly, t: AlgebraicNumber, close: QQ) -> tup
     They differ by at most a given part of the upper one, unless t is already known to 2^-100.
     """
     low, high = _range(n, d, t)
-    while high - low > close * high and t._high - t._low > FINE:
+    while high - low > close * high and t.exact_high - t.exact_low > FINE:
         low, high = _range(n, d, t)
     return low, high
 
@@ -112,7 +112,7 @@ def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
     if y.compare_rational(0) == 0:
         return AlgebraicNumber(0)
     polynomial: list[ZZ] = []
-    for c in y._polynomial:
+    for c in y.exact_polynomial:
         polynomial += [c, ZZ(0)]
     return _root_near(trimmed(polynomial), lambda: _range_of_root(y))
 
@@ -127,7 +127,7 @@ def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumb
             return AlgebraicNumber(low)
         low, high = _rounded_out(low, high)
         if count_roots(sequence, low, high) == 1 and evaluate(f, low) != 0:
-            return AlgebraicNumber._root(f, low, high)
+            return AlgebraicNumber.exact_root(f, low, high)
 
 
 def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
@@ -143,25 +143,27 @@ def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
     """Return bounds of n(t) / d(t); they narrow with every call."""
     while True:
         t.refine()
-        low, high = range_on(d, t._low, t._high)
+        low, high = range_on(d, t.exact_low, t.exact_high)
         if low > 0 or high < 0:
             break
-    ends = [x / y for x in range_on(n, t._low, t._high) for y in (low, high)]
+    ends = [x / y for x in range_on(n, t.exact_low, t.exact_high) for y in (low, high)]
     return min(ends), max(ends)
 
 
 def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
     """Return bounds of the square root of y; they narrow with every call."""
     y.refine()
-    while y._low <= 0 and not y.is_rational:
+    while y.exact_low <= 0 and not y.is_rational:
         y.refine()
-    if y.is_rational and is_square(y._low.numerator) and is_square(y._low.denominator):
-        root = QQ(isqrt(y._low.numerator), isqrt(y._low.denominator))
+    if y.is_rational and is_square(y.exact_low.numerator) and is_square(y.exact_low.denominator):
+        root = QQ(isqrt(y.exact_low.numerator), isqrt(y.exact_low.denominator))
         return root, root
-    size = exponent(y._high) // 2
-    bits = RELATIVE_BITS - size if y.is_rational else size - exponent(y._high - y._low) + 4
+    size = exponent(y.exact_high) // 2
+    bits = (
+        RELATIVE_BITS - size if y.is_rational else size - exponent(y.exact_high - y.exact_low) + 4
+    )
     unit = power_of_two(-bits)
-    low, high = (isqrt(floor(v / (unit * unit))) for v in (y._low, y._high))
+    low, high = (isqrt(floor(v / (unit * unit))) for v in (y.exact_low, y.exact_high))
     return low * unit, (high + 1) * unit
 
 

@@ -42,7 +42,7 @@ ROUNDING: Final = 2.0**-54
 def nearest_double(x: IsolatedRoot) -> float:
     """Return the nearest double (ties, possible only for a rational, to even); ±inf on overflow."""
     while True:
-        low, high = nearest_float(x._low), nearest_float(x._high)
+        low, high = nearest_float(x.exact_low), nearest_float(x.exact_high)
         if low == high:
             return low + 0.0  # never -0.0
         if high == math.nextafter(low, math.inf):
@@ -62,17 +62,17 @@ def _exact(x: float) -> QQ:
 
 def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
-    near = nearest_float(x._low)
-    if near == nearest_float(x._high) and math.isfinite(near):
+    near = nearest_float(x.exact_low)
+    if near == nearest_float(x.exact_high) and math.isfinite(near):
         exact = _exact(near)
         # Both ends round to this double, and neither end equals x unless both do.
-        if exact <= x._low:
-            return near, (near if exact == x._high else math.nextafter(near, math.inf))
-        if exact >= x._high:
+        if exact <= x.exact_low:
+            return near, (near if exact == x.exact_high else math.nextafter(near, math.inf))
+        if exact >= x.exact_high:
             return math.nextafter(near, -math.inf), near
-    guessing = len(x._polynomial) > 3
+    guessing = len(x.exact_polynomial) > 3
     while True:
-        lo, hi = enclosing_floats(x._low)[0], enclosing_floats(x._high)[1]
+        lo, hi = enclosing_floats(x.exact_low)[0], enclosing_floats(x.exact_high)[1]
         between = math.nextafter(lo, math.inf)
         if hi <= between:
             return lo, hi
@@ -90,9 +90,9 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
 
     A wrong estimate does no harm: the comparisons with x stay valid, only less useful.
     """
-    lo, hi = nearest_float(x._low), nearest_float(x._high)
-    shift = max(0, max(abs(c) for c in x._polynomial).bit_length() - LARGEST_BITS)
-    f = [float(c >> shift) for c in reversed(x._polynomial)]
+    lo, hi = nearest_float(x.exact_low), nearest_float(x.exact_high)
+    shift = max(0, max(abs(c) for c in x.exact_polynomial).bit_length() - LARGEST_BITS)
+    f = [float(c >> shift) for c in reversed(x.exact_polynomial)]
     rises, t = _value_and_slope(f, hi)[0] > 0.0, (lo + hi) / 2
     for _ in range(MAX_STEPS):
         value, slope = _value_and_slope(f, t)
@@ -123,7 +123,7 @@ def _value_and_slope(f: list[float], t: float) -> tuple[float, float]:
 def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
     """See `AlgebraicNumber.canonical_interval`."""
     if x.simplified().is_rational:
-        return x._low, x._high
+        return x.exact_low, x.exact_high
     bits = 64
     while True:
         check_budget()
@@ -136,13 +136,13 @@ def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
 
 
 def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
-    if x._low <= low and high <= x._high:
+    if x.exact_low <= low and high <= x.exact_high:
         return True
     from exactpt.kernel.sturm import count_roots, sturm_sequence
 
     return (
-        sign_at(x._polynomial, low) != 0
-        and count_roots(sturm_sequence(x._polynomial), low, high) == 1
+        sign_at(x.exact_polynomial, low) != 0
+        and count_roots(sturm_sequence(x.exact_polynomial), low, high) == 1
     )
 
 
@@ -181,7 +181,7 @@ def _next_on_grid(x: IsolatedRoot, bits: int) -> QQ:
 def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:
     """Return the largest integer m with m * grid <= x."""
     x.refine_to(grid)
-    m = floor(x._low / grid)
+    m = floor(x.exact_low / grid)
     while x.compare_rational((m + 1) * grid) >= 0:
         m += 1
     return m
@@ -196,7 +196,7 @@ def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
         return -sys.maxsize
     while True:
         check_budget()
-        low, high = _range(p, w, time._low, time._high)
+        low, high = _range(p, w, time.exact_low, time.exact_high)
         least = low if low > 0 else -high
         if least > 0:
             return least.numerator.bit_length() - least.denominator.bit_length()
@@ -209,7 +209,7 @@ def nearest_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
         return 0.0
     while True:
         check_budget()
-        low, high = _range(p, w, time._low, time._high)
+        low, high = _range(p, w, time.exact_low, time.exact_high)
         a, b = nearest_float(low), nearest_float(high)
         if a == b:
             return a
@@ -240,7 +240,7 @@ def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int)
         return Decimal(0)
     while True:
         check_budget()
-        low, high = _range(p, w, time._low, time._high)
+        low, high = _range(p, w, time.exact_low, time.exact_high)
         a, b = rounded_decimal(low, context), rounded_decimal(high, context)
         if a == b:
             return a

@@ -51,12 +51,12 @@ class IsolatedRoot:
     neither end is a root.
     """
 
-    __slots__ = ("_below", "_bits", "_high", "_low", "_polynomial")
+    __slots__ = ("_below", "_bits", "exact_high", "exact_low", "exact_polynomial")
 
     def __init__(self, value: Rational) -> None:
-        self._polynomial: IntPoly
-        self._low: QQ
-        self._high: QQ
+        self.exact_polynomial: IntPoly
+        self.exact_low: QQ
+        self.exact_high: QQ
         self._below: int  # the sign of the polynomial at low
         self._bits: int  # bits the next step tries to gain; below 1: bisection
         self._become(rational(value))
@@ -67,10 +67,11 @@ class IsolatedRoot:
 
         ``low`` may be another root; ``low == high`` states that it is the root.
         """
-        return cls._root(tuple(map(ZZ, polynomial)), rational(low), rational(high))
+        return cls.exact_root(tuple(map(ZZ, polynomial)), rational(low), rational(high))
 
     @classmethod
-    def _root(cls, polynomial: IntPoly, low: QQ, high: QQ) -> Self:
+    def exact_root(cls, polynomial: IntPoly, low: QQ, high: QQ) -> Self:
+        """Return `root` of numbers of GMP."""
         self = cls.__new__(cls)
         if low == high:
             self._become(high)
@@ -87,7 +88,7 @@ class IsolatedRoot:
         if len(polynomial) == 2:
             self._become(QQ(-polynomial[0], polynomial[1]))
             return self
-        self._polynomial, self._low, self._high = polynomial, low, high
+        self.exact_polynomial, self.exact_low, self.exact_high = polynomial, low, high
         self._bits = -FIRST_STEPS
         self._below = sign_at(polynomial, low)
         if sign_at(polynomial, high) == 0:
@@ -107,7 +108,7 @@ class IsolatedRoot:
             larger: whether it is the larger root.
         """
         self = cls.__new__(cls)
-        self._polynomial, self._low, self._high = primitive(quadratic), low, high
+        self.exact_polynomial, self.exact_low, self.exact_high = primitive(quadratic), low, high
         self._bits = -FIRST_STEPS
         self._below = -1 if larger else 1
         return self
@@ -115,58 +116,62 @@ class IsolatedRoot:
     def _leave_low_end(self) -> None:
         # The root is inside (low, high), and low is a (simple) root as well: the sign
         # just right of it is that of the derivative. Bisect until low is not a root.
-        self._below = sign_at(derivative(self._polynomial), self._low)
+        self._below = sign_at(derivative(self.exact_polynomial), self.exact_low)
         while True:
             check_budget()
-            middle = (self._low + self._high) / 2
-            s = sign_at(self._polynomial, middle)
+            middle = (self.exact_low + self.exact_high) / 2
+            s = sign_at(self.exact_polynomial, middle)
             if s == 0:
                 self._become(middle)
                 return
             if s == self._below:
-                self._low = middle
+                self.exact_low = middle
                 return
-            self._high = middle
+            self.exact_high = middle
 
     def _become(self, value: QQ) -> None:
-        self._polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
-        self._low = self._high = value
+        self.exact_polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
+        self.exact_low = self.exact_high = value
         self._below = self._bits = 0
 
     @property
     def polynomial(self) -> tuple[int, ...]:
         """An integer polynomial with the number as a simple root, constant term first."""
-        return tuple(map(int, self._polynomial))
+        return tuple(map(int, self.exact_polynomial))
 
     @property
     def low(self) -> Fraction:
         """A rational at most the number."""
-        return fraction(self._low)
+        return fraction(self.exact_low)
 
     @property
     def high(self) -> Fraction:
         """A rational at least the number."""
-        return fraction(self._high)
+        return fraction(self.exact_high)
 
     @property
     def is_rational(self) -> bool:
         """True if it is known to be rational; a number of degree 3 or more may be unrecognised."""
-        return self._low == self._high
+        return self.exact_low == self.exact_high
 
     def refine(self) -> None:
         """Shrink the interval at least to a half; close to the root, quadratically.
 
         An interval around 0 is cut there, so that 0 is found and a tiny number has a sign.
         """
-        if self._low == self._high:
+        if self.exact_low == self.exact_high:
             return
-        if len(self._polynomial) == 3:
+        if len(self.exact_polynomial) == 3:
             self._refine_quadratic()
             return
-        if self._bits > 1 and not self._low < 0 < self._high:
+        if self._bits > 1 and not self.exact_low < 0 < self.exact_high:
             self._refine_by_secant()
             return
-        self.compare_rational(QQ(0) if self._low < 0 < self._high else (self._low + self._high) / 2)
+        self.compare_rational(
+            QQ(0)
+            if self.exact_low < 0 < self.exact_high
+            else (self.exact_low + self.exact_high) / 2
+        )
         self._bits = self._bits + 1 if self._bits < 1 else 4
 
     def _refine_by_secant(self) -> None:
@@ -176,21 +181,21 @@ class IsolatedRoot:
         squares the number of cells. Otherwise the next step takes its square root, and the
         interval is bisected.
         """
-        low, width = self._low, self._high - self._low
-        at_low, at_high = (abs(evaluate(self._polynomial, t)) for t in (low, self._high))
+        low, width = self.exact_low, self.exact_high - self.exact_low
+        at_low, at_high = (abs(evaluate(self.exact_polynomial, t)) for t in (low, self.exact_high))
         cell = width * power_of_two(-self._bits)
         left = low + floor(at_low / (at_low + at_high) / power_of_two(-self._bits)) * cell
         if self.compare_rational(left) > 0 > self.compare_rational(left + cell):
             self._bits *= 2
         else:
             self._bits //= 2
-            if self._high - self._low > width / 2:
-                self.compare_rational((self._low + self._high) / 2)
+            if self.exact_high - self.exact_low > width / 2:
+                self.compare_rational((self.exact_low + self.exact_high) / 2)
 
     def _refine_quadratic(self) -> None:
         # (-c1 ± sqrt(d)) / 2 c2, the square root to enough bits to double the precision.
-        c0, c1, c2 = self._polynomial
-        width = self._high - self._low
+        c0, c1, c2 = self.exact_polynomial
+        width = self.exact_high - self.exact_low
         bits = 2 * max(8, width.denominator.bit_length() - width.numerator.bit_length()) + 8
         root = isqrt(_discriminant((c0, c1, c2)) << 2 * bits)
         centre = QQ(-c1, 2 * c2)
@@ -200,31 +205,31 @@ class IsolatedRoot:
             low, high = centre - (root + 1) * unit, centre - root * unit
         else:
             low, high = centre + root * unit, centre + (root + 1) * unit
-        self._low, self._high = max(self._low, low), min(self._high, high)
+        self.exact_low, self.exact_high = max(self.exact_low, low), min(self.exact_high, high)
 
     def refine_to(self, width: QQ) -> None:
         """Refine until ``high - low <= width`` (positive)."""
-        while self._high - self._low > width:
+        while self.exact_high - self.exact_low > width:
             check_budget()
             self.refine()
 
     def compare_rational(self, number: Rational) -> int:
         """-1, 0 or 1 as this number is smaller than, equal to, or larger than a rational."""
         q = rational(number)  # it may become an end of the interval
-        if self._high < q:
+        if self.exact_high < q:
             return -1
-        if self._low > q:
+        if self.exact_low > q:
             return 1
-        if self._low == self._high:
+        if self.exact_low == self.exact_high:
             return 0
-        s = sign_at(self._polynomial, q)
+        s = sign_at(self.exact_polynomial, q)
         if s == 0:
             self._become(q)
             return 0
         if s == self._below:
-            self._low = q
+            self.exact_low = q
             return 1
-        self._high = q
+        self.exact_high = q
         return -1
 
     def simplified(self) -> Self:
@@ -234,17 +239,17 @@ class IsolatedRoot:
         coefficient c (Gauss), so c * root is an integer: one candidate is left once
         the interval is narrower than 1/c.
         """
-        if self._low < self._high and len(self._polynomial) > 3:
-            lead = self._polynomial[-1]
+        if self.exact_low < self.exact_high and len(self.exact_polynomial) > 3:
+            lead = self.exact_polynomial[-1]
             self.refine_to(QQ(ZZ(1), 2 * lead))
-            self.compare_rational(QQ(floor(self._high * lead), lead))
+            self.compare_rational(QQ(floor(self.exact_high * lead), lead))
         return self
 
     def __reduce__(self) -> tuple[object, ...]:
         kind = type(self)
-        if self._low == self._high:
-            return kind, (str(self._low),)
-        return kind.root, (self.polynomial, str(self._low), str(self._high))
+        if self.exact_low == self.exact_high:
+            return kind, (str(self.exact_low),)
+        return kind.root, (self.polynomial, str(self.exact_low), str(self.exact_high))
 
 
 def _discriminant(f: IntPoly) -> ZZ:

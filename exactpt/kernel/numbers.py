@@ -105,7 +105,10 @@ def fraction(value: QQ) -> Fraction:
     """Return the number as a ``Fraction``, for callers outside the package.
 
     gmpy2's numbers stay inside: in gmpy2 2.3, `limit_denominator` frees the number it is
-    called on if it returns that number itself.
+    called on if it returns that number itself. So a number that callers and the package both
+    read has two attributes: ``scene.start`` is a ``Fraction``, and ``scene.exact_start`` the
+    same number of GMP. Attributes and methods that begin with ``exact_`` are for the code of
+    the package, and are not in the reference of the public interface.
     """
     return Fraction(int(value.numerator), int(value.denominator))
 

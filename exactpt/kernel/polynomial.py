@@ -45,13 +45,13 @@ class Polynomial:
     [<1.4142135623730951... (root of a polynomial of degree 2)>]
     """
 
-    __slots__ = ("_doubles", "_exact")
-    _doubles: tuple[float, ...] | None
+    __slots__ = ("_exact", "exact_doubles")
+    exact_doubles: tuple[float, ...] | None
     _exact: tuple[QQ, ...] | None
     __match_args__: ClassVar = ("coefficients",)
 
     def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
-        # `_doubles` are the coefficients if all were given as doubles; `_exact` are rational.
+        # `exact_doubles` are the coefficients if all were given as doubles; `_exact` are rational.
         if isinstance(coefficients, str):
             raise InputError(f"a polynomial has a list of coefficients: {shorten(coefficients)}")
         try:
@@ -65,30 +65,31 @@ class Polynomial:
             return
         while near and near[-1] == 0.0:
             near.pop()
-        object.__setattr__(self, "_doubles", tuple(near))
+        object.__setattr__(self, "exact_doubles", tuple(near))
         object.__setattr__(self, "_exact", None)
 
     def _keep(self, values: list[QQ]) -> None:
         while values and values[-1] == 0:
             values.pop()
-        object.__setattr__(self, "_doubles", None)
+        object.__setattr__(self, "exact_doubles", None)
         object.__setattr__(self, "_exact", tuple(values))
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial cannot be changed: {name}")
 
     @classmethod
-    def _of(cls, values: list[QQ]) -> Polynomial:
+    def exact_from(cls, values: list[QQ]) -> Polynomial:
+        """Return the polynomial with these coefficients, constant first, which are not checked."""
         self = cls.__new__(cls)
         self._keep(values)
         return self
 
     @property
-    def _coefficients(self) -> tuple[QQ, ...]:
+    def exact_coefficients(self) -> tuple[QQ, ...]:
         """The coefficients; the last is not 0."""
         values = self._exact
         if values is None:
-            values = tuple([QQ(*c.as_integer_ratio()) for c in self._doubles or ()])
+            values = tuple([QQ(*c.as_integer_ratio()) for c in self.exact_doubles or ()])
             object.__setattr__(self, "_exact", values)
         return values
 
@@ -112,12 +113,13 @@ class Polynomial:
     @property
     def coefficients(self) -> tuple[Fraction, ...]:
         """``coefficients[i]`` is that of t**i; the last is not 0, and ``()`` is zero."""
-        return fractions(self._coefficients)
+        return fractions(self.exact_coefficients)
 
     @property
     def degree(self) -> int:
         """The degree; -1 for the zero polynomial."""
-        return len(self._coefficients if self._doubles is None else self._doubles) - 1
+        coefficients = self.exact_coefficients if self.exact_doubles is None else self.exact_doubles
+        return len(coefficients) - 1
 
     def __getitem__(self, i: int) -> Fraction:
         """Return the coefficient of t**i: 0 beyond the degree.
@@ -127,7 +129,7 @@ class Polynomial:
         """
         if i < 0:
             raise IndexError(f"expected an exponent of at least 0, got {i}")
-        values = self._coefficients
+        values = self.exact_coefficients
         return fraction(values[i] if i < len(values) else QQ(0))
 
     @overload
@@ -137,28 +139,29 @@ class Polynomial:
     def __call__(self, t: Rational | Polynomial) -> Fraction | Polynomial:
         """Return the value at a rational number, or the composition with a polynomial."""
         if not isinstance(t, Polynomial):
-            return fraction(self._at(rational(t)))
+            return fraction(self.exact_at(rational(t)))
         if t.degree <= 1:
-            origin, step, *_ = *t._coefficients, QQ(0), QQ(0)
-            return Polynomial._of(substituted(self._coefficients, origin, step))
+            origin, step, *_ = *t.exact_coefficients, QQ(0), QQ(0)
+            return Polynomial.exact_from(substituted(self.exact_coefficients, origin, step))
         result = ZERO
-        for c in reversed(self._coefficients):
+        for c in reversed(self.exact_coefficients):
             result = result * t + c
         return result
 
-    def _at(self, t: QQ) -> QQ:
+    def exact_at(self, t: QQ) -> QQ:
+        """Return the value at a time as a rational of GMP."""
         value = QQ(0)
-        for c in reversed(self._coefficients):
+        for c in reversed(self.exact_coefficients):
             value = value * t + c
         return value
 
     def sign(self, t: AlgebraicNumber | Rational) -> int:
         """Return the sign at a time, -1, 0 or 1, exactly."""
-        return _number(t).sign_of(self._integer())
+        return _number(t).sign_of(self.exact_integers())
 
     def sign_after(self, t: AlgebraicNumber | Rational) -> int:
         """Return the sign just after a time, exactly: 0 for the zero polynomial alone."""
-        return _number(t).sign_after(self._integer())
+        return _number(t).sign_after(self.exact_integers())
 
     def roots(
         self,
@@ -179,28 +182,28 @@ class Polynomial:
         if self.degree < 0:
             raise InputError("every number is a root of the zero polynomial")
         # Cauchy's bound: every root is smaller in absolute value.
-        bound = 1 + max(abs(c / self._coefficients[-1]) for c in self._coefficients)
+        bound = 1 + max(abs(c / self.exact_coefficients[-1]) for c in self.exact_coefficients)
         start = _number(-bound if after is None else after)
         end = bound if until is None else rational(until)
-        return [root.time for root in roots_after(self._integer(), start, end)]
+        return [root.time for root in roots_after(self.exact_integers(), start, end)]
 
-    def _integer(self) -> IntPoly:
+    def exact_integers(self) -> IntPoly:
         """Return a positive multiple with integer coefficients."""
-        common = ZZ(lcm(*(int(c.denominator) for c in self._coefficients)))
-        return tuple(ZZ(c * common) for c in self._coefficients)
+        common = ZZ(lcm(*(int(c.denominator) for c in self.exact_coefficients)))
+        return tuple(ZZ(c * common) for c in self.exact_coefficients)
 
     def __add__(self, other: Polynomial | Rational) -> Polynomial:
-        f = self._coefficients
-        g = other._coefficients if isinstance(other, Polynomial) else (rational(other),)
+        f = self.exact_coefficients
+        g = other.exact_coefficients if isinstance(other, Polynomial) else (rational(other),)
         if len(f) < len(g):
             f, g = g, f
-        return Polynomial._of([*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :]])
+        return Polynomial.exact_from([*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :]])
 
     def __radd__(self, other: Rational) -> Polynomial:
         return self + other
 
     def __neg__(self) -> Polynomial:
-        return Polynomial._of([-c for c in self._coefficients])
+        return Polynomial.exact_from([-c for c in self.exact_coefficients])
 
     def __sub__(self, other: Polynomial | Rational) -> Polynomial:
         return self + (-other if isinstance(other, Polynomial) else -rational(other))
@@ -209,11 +212,11 @@ class Polynomial:
         return -self + other
 
     def __mul__(self, other: Polynomial | Rational) -> Polynomial:
-        f = self._coefficients
+        f = self.exact_coefficients
         if not isinstance(other, Polynomial):
             factor = rational(other)
-            return Polynomial._of([c * factor for c in f])
-        g = other._coefficients
+            return Polynomial.exact_from([c * factor for c in f])
+        g = other.exact_coefficients
         if not f or not g:
             return ZERO
         product = [QQ(0)] * (len(f) + len(g) - 1)
@@ -222,7 +225,7 @@ class Polynomial:
                 check_budget()
             for j, b in enumerate(g):
                 product[i + j] += a * b
-        return Polynomial._of(product)
+        return Polynomial.exact_from(product)
 
     def __rmul__(self, other: Rational) -> Polynomial:
         return self * other
@@ -231,7 +234,7 @@ class Polynomial:
         divisor = rational(other)
         if divisor == 0:
             raise ZeroDivisionError("a polynomial divided by zero")
-        return Polynomial._of([c / divisor for c in self._coefficients])
+        return Polynomial.exact_from([c / divisor for c in self.exact_coefficients])
 
     def __pow__(self, exponent: int) -> Polynomial:
         if exponent < 0:
@@ -247,7 +250,7 @@ class Polynomial:
 
     def derivative(self) -> Polynomial:
         """Return the derivative."""
-        return Polynomial._of([i * c for i, c in enumerate(self._coefficients) if i])
+        return Polynomial.exact_from([i * c for i, c in enumerate(self.exact_coefficients) if i])
 
     def __iter__(self) -> Iterator[Fraction]:
         return iter(self.coefficients)
@@ -255,18 +258,18 @@ class Polynomial:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Polynomial):
             return NotImplemented
-        if self._doubles is not None and other._doubles is not None:
-            return self._doubles == other._doubles
-        return self._coefficients == other._coefficients
+        if self.exact_doubles is not None and other.exact_doubles is not None:
+            return self.exact_doubles == other.exact_doubles
+        return self.exact_coefficients == other.exact_coefficients
 
     def __hash__(self) -> int:
-        return hash(self._coefficients)
+        return hash(self.exact_coefficients)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Polynomial, (tuple(map(str, self._coefficients)),)
+        return Polynomial, (tuple(map(str, self.exact_coefficients)),)
 
     def __repr__(self) -> str:
-        return call_in_brief("Polynomial", [str(c) for c in self._coefficients])
+        return call_in_brief("Polynomial", [str(c) for c in self.exact_coefficients])
 
 
 ZERO: Final = Polynomial()
@@ -282,7 +285,7 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
     if isinstance(value, Polynomial):
         return value
     if isinstance(value, str):
-        return Polynomial._of([rational(value)])
+        return Polynomial.exact_from([rational(value)])
     if type(value) is list or isinstance(value, Iterable):
         return Polynomial(value)
     if hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):

@@ -59,11 +59,11 @@ class RealNumber(IsolatedRoot):
 
     def _affine(self, a: QQ, b: QQ) -> Self:
         """Return a x + b."""
-        low, high = self._low, self._high
+        low, high = self.exact_low, self.exact_high
         if low == high or not a:
             return type(self)(a * low + b)
         row: list[QQ] = []  # Horner's rule for the polynomial at (y - b) / a
-        for c in reversed(self._polynomial):
+        for c in reversed(self.exact_polynomial):
             shifted = [QQ(0), *(r / a for r in row)]
             for i, r in enumerate(row):
                 shifted[i] -= r * b / a
@@ -72,7 +72,7 @@ class RealNumber(IsolatedRoot):
         common = math.lcm(*(int(c.denominator) for c in row))
         ends = sorted((a * low + b, a * high + b))
         polynomial = trimmed(ZZ(c * common) for c in row)
-        return type(self)._root(polynomial, ends[0], ends[1])
+        return type(self).exact_root(polynomial, ends[0], ends[1])
 
     def __round__(self, digits: int | None = None) -> int | Fraction:
         """Return the nearest integer, or multiple of 10^-digits; of two, the even one."""
@@ -84,12 +84,12 @@ class RealNumber(IsolatedRoot):
 
     def _multiple_below(self, unit: QQ) -> ZZ:
         """Return the largest n with n times the unit at most this number."""
-        while floor(self._low / unit) != floor(self._high / unit):
-            multiple = floor(self._high / unit)
+        while floor(self.exact_low / unit) != floor(self.exact_high / unit):
+            multiple = floor(self.exact_high / unit)
             if self.compare_rational(multiple * unit) >= 0:
                 return multiple
             self.refine()
-        return floor(self._low / unit)
+        return floor(self.exact_low / unit)
 
     def __format__(self, spec: str) -> str:
         """Return ``str(x)`` without a specification; with one, that of the nearest double.
@@ -104,7 +104,7 @@ class RealNumber(IsolatedRoot):
         units = self._multiple_below(QQ(1))
         context = rounding_context(int(match[1]) + len(str(units)) + 30)
         while True:
-            ends = [rounded_decimal(q, context) for q in (self._low, self._high)]
+            ends = [rounded_decimal(q, context) for q in (self.exact_low, self.exact_high)]
             with localcontext(context):  # Python rounds by the caller's context otherwise
                 low, high = (format(end, spec) for end in ends)
             if low == high:
@@ -117,17 +117,18 @@ class RealNumber(IsolatedRoot):
         return below + (below < 0 and self.compare_rational(below) > 0)
 
     def __str__(self) -> str:
-        if self._low == self._high:
-            return _cut(str(self._low))
-        coefficients = f"({', '.join(map(str, self._polynomial))})"
+        if self.exact_low == self.exact_high:
+            return _cut(str(self.exact_low))
+        coefficients = f"({', '.join(map(str, self.exact_polynomial))})"
         if len(coefficients) > LONGEST:
-            coefficients = f"a polynomial of degree {len(self._polynomial) - 1}"
+            coefficients = f"a polynomial of degree {len(self.exact_polynomial) - 1}"
         return f"{float(self)!r}... (root of {coefficients})"
 
     def __repr__(self) -> str:
-        if self._low == self._high:
-            return f"AlgebraicNumber('{_cut(str(self._low))}')"
-        return f"<{float(self)!r}... (root of a polynomial of degree {len(self._polynomial) - 1})>"
+        if self.exact_low == self.exact_high:
+            return f"AlgebraicNumber('{_cut(str(self.exact_low))}')"
+        degree = len(self.exact_polynomial) - 1
+        return f"<{float(self)!r}... (root of a polynomial of degree {degree})>"
 
 
 def _cut(text: str) -> str:

@@ -57,7 +57,7 @@ def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]
     if len(f) == 3:
         return _quadratic_roots(f, start, until)
     if sign_at(f, until) == 0:
-        return _roots_by_sturm(f, sturm_sequence(primitive(f)), start, start._low, until)
+        return _roots_by_sturm(f, sturm_sequence(primitive(f)), start, start.exact_low, until)
     return _roots_by_descartes(f, start, until)
 
 
@@ -71,10 +71,10 @@ def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterat
     """Yield the roots of f after start, if ``until`` is not a root."""
     p: IntPoly = ()
     sequence: list[IntPoly] = []
-    for low, high, alone in single_roots(f, start._low, until):
+    for low, high, alone in single_roots(f, start.exact_low, until):
         if alone:
             p = p or square_free(f)
-            root = AlgebraicNumber._root(p, low, high)
+            root = AlgebraicNumber.exact_root(p, low, high)
             if root.compare(start) > 0:
                 yield Root(root, crossing=True)
         else:
@@ -89,7 +89,7 @@ def _roots_by_sturm(
     p = sequence[0]
     simple = len(p) == len(f)
     for left, right in isolating_intervals(sequence, low, high):
-        root = AlgebraicNumber._root(p, left, right)
+        root = AlgebraicNumber.exact_root(p, left, right)
         if root.compare(start) > 0:
             yield Root(root, crossing=simple or root.sign_before(f) != root.sign_after(f))
 
@@ -112,7 +112,7 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
     if c2 < 0:
         f, c1, c2 = negate(f), -c1, -c2
     middle, unit = -c1 << places, c2 << places + 1
-    p, q = start._low.numerator * unit, start._low.denominator
+    p, q = start.exact_low.numerator * unit, start.exact_low.denominator
     for above in (middle - s, middle + s + 1):
         if above * q <= p:
             continue  # the root is before the start

@@ -40,16 +40,18 @@ def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[
 
 def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
     """Return the expression sum(c[i] * variable**i)."""
-    terms = (_rational(c) * variable**i for i, c in enumerate(f._coefficients))
+    terms = (_rational(c) * variable**i for i, c in enumerate(f.exact_coefficients))
     return sum(terms, start=sympy.Integer(0))
 
 
 def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
     """Return a rational, or the real root of the same index among those of the polynomial."""
     if number.is_rational:
-        return _rational(number._low)
-    f = number._polynomial
-    place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number._low), number._low)
+        return _rational(number.exact_low)
+    f = number.exact_polynomial
+    place = count_roots(
+        sturm_sequence(f), min(-cauchy_bound(f), number.exact_low), number.exact_low
+    )
     poly = sympy.Poly([int(c) for c in reversed(f)], sympy.Symbol("t"))
     return poly.real_roots()[place]
 

@@ -101,7 +101,14 @@ class Body:
     """
 
     __slots__ = (
-        "_course", "_known_touches", "_parts", "_properties", "_radius", "_shape", "closed", "name"
+        "_course",
+        "_known_touches",
+        "_parts",
+        "_properties",
+        "closed",
+        "exact_radius",
+        "exact_shape",
+        "name"
     )  # fmt: skip
 
     def __init__(
@@ -125,7 +132,7 @@ class Body:
             _check_sorts(name, vertices, keyframes, parts)
         self.name = name
         self.closed = closed
-        self._radius = _read_radius(name, radius)
+        self.exact_radius = _read_radius(name, radius)
         self._parts: Parts | None = None
         self._known_touches: tuple[tuple[QQ, QQ], ...] | None = None
         if properties is not None and not _has_texts(properties):
@@ -133,10 +140,10 @@ class Body:
         self._properties = dict(properties) if properties else None
         try:
             if plain:
-                self._shape = Shape(vertices, keyframes, ring=closed)
+                self.exact_shape = Shape(vertices, keyframes, ring=closed)
             else:
                 self._read_rings(vertices, keyframes, listed("holes", holes), parts)
-            self._course = Course(self._shape, motion)
+            self._course = Course(self.exact_shape, motion)
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
 
@@ -148,7 +155,7 @@ class Body:
         parts: Iterable[PartLike] | None,
     ) -> None:
         if parts is None and not holes:
-            self._shape = Shape(vertices, keyframes, ring=self.closed)
+            self.exact_shape = Shape(vertices, keyframes, ring=self.closed)
             return
         if not self.closed:
             raise InputError("an open chain has neither holes nor parts")
@@ -156,7 +163,7 @@ class Body:
             raise InputError("holes are for a body of vertices; a part has holes of its own")
         from exactpt.motion.rings import read_rings
 
-        self._shape, self._parts = read_rings(vertices, holes, parts)
+        self.exact_shape, self._parts = read_rings(vertices, holes, parts)
 
     @classmethod
     def from_shapely(
@@ -225,7 +232,7 @@ class Body:
         _check_motion(self.name, motion)
         other = self._copied()
         try:
-            other._course = Course(self._shape, motion)  # noqa: SLF001
+            other._course = Course(self.exact_shape, motion)  # noqa: SLF001
         except InputError as error:
             raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
@@ -236,14 +243,14 @@ class Body:
         It is where the rational pieces of its motion are, without the error of a path, a spin or
         a spline.
         """
-        points = self._at(rational(t))
+        points = self.exact_at(rational(t))
         if self._parts is None:
-            body = Body(self.name, points, closed=self.closed, radius=str(self._radius))
+            body = Body(self.name, points, closed=self.closed, radius=str(self.exact_radius))
         else:
             from exactpt.motion.rings import parts_given
 
             given = parts_given(self._parts, points)
-            body = Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
+            body = Body(self.name, radius=str(self.exact_radius), **given)  # type: ignore[arg-type]
         body._properties = self._properties
         return body
 
@@ -254,7 +261,7 @@ class Body:
             InputError: if it is not a number >= 0.
         """
         other = self._copied()
-        other._radius = _read_radius(self.name, radius)
+        other.exact_radius = _read_radius(self.name, radius)
         return other
 
     def _copied(self) -> Body:
@@ -280,17 +287,17 @@ class Body:
     @property
     def size(self) -> int:
         """The number of vertices."""
-        return self._shape.size
+        return self.exact_shape.size
 
     @property
     def radius(self) -> Fraction:
         """The body is all points within this distance of its core; 0 unless it is rounded."""
-        return fraction(self._radius)
+        return fraction(self.exact_radius)
 
     @property
     def vertices(self) -> tuple[Position, ...]:
         """The positions in the body's rest frame; none if the body was given by keyframes."""
-        return self._shape.positions
+        return self.exact_shape.positions
 
     @property
     def edges(self) -> list[tuple[int, int]]:
@@ -325,7 +332,7 @@ class Body:
         return self._parts is not None
 
     @property
-    def _ring_touches(self) -> tuple[tuple[QQ, QQ], ...]:
+    def exact_ring_touches(self) -> tuple[tuple[QQ, QQ], ...]:
         """The points in which rings touch, in the rest frame; none if the rings are disjoint.
 
         A scene holds a body with such points only if the body keeps its shape
@@ -350,22 +357,25 @@ class Body:
         """The keyframes, if the body was given by them."""
         return tuple(
             Keyframe(fraction(frame.t), tuple(map(place, frame.vertices)))
-            for frame in self._shape.keyframes
+            for frame in self.exact_shape.keyframes
         )
 
     @property
     def breakpoints(self) -> tuple[Fraction, ...]:
         """The rational times at which the formulas of the trajectories change, in order."""
-        return fractions(self._breakpoints)
+        return fractions(self.exact_breakpoints)
 
     @property
-    def _breakpoints(self) -> tuple[QQ, ...]:
+    def exact_breakpoints(self) -> tuple[QQ, ...]:
+        """`breakpoints` as rationals of GMP."""
         return self._course.breakpoints
 
-    def _piece_after(self, t: QQ) -> Piece:
+    def exact_piece_after(self, t: QQ) -> Piece:
+        """Return the piece of the motion that is valid from a time on."""
         return self._course.after(t)
 
-    def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
+    def exact_at(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """Return the places of the vertices at a time as rationals of GMP."""
         return self._course.at(t)
 
     @overload
@@ -385,33 +395,34 @@ class Body:
             InputError: if the time is irrational and no digits are given.
         """
         if digits is None:
-            return list(map(place, self._at(rational(t))))
+            return list(map(place, self.exact_at(rational(t))))
         time = t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)
         return [
             (
                 decimal_quotient(p.x, p.w, time, digits),
                 decimal_quotient(p.y, p.w, time, digits),
             )
-            for p in self._tracks_just_after(time)
+            for p in self.exact_tracks_just_after(time)
         ]
 
-    def _tracks_just_after(self, time: AlgebraicNumber) -> tuple[Track, ...]:
-        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
-        return self._piece_after(passed[-1] if passed else time._low).tracks
+    def exact_tracks_just_after(self, time: AlgebraicNumber) -> tuple[Track, ...]:
+        """Return the tracks of the vertices on a short interval that begins at a time."""
+        passed = [b for b in self.exact_breakpoints if time.compare_rational(b) >= 0]
+        return self.exact_piece_after(passed[-1] if passed else time.exact_low).tracks
 
     def velocity_at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
         """Return the velocities of the vertices just after a rational time, exactly."""
         now = rational(t)
-        return [place(track.velocity(now)) for track in self._piece_after(now).tracks]
+        return [place(track.velocity(now)) for track in self.exact_piece_after(now).tracks]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Body):
             return NotImplemented
         return (
             (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
-            and (self._radius, self._parts) == (other._radius, other._parts)
+            and (self.exact_radius, self._parts) == (other.exact_radius, other._parts)
             and self.vertices == other.vertices
-            and self._shape.keyframes == other._shape.keyframes
+            and self.exact_shape.keyframes == other.exact_shape.keyframes
             and self.motion == other.motion
         )
 
@@ -420,11 +431,11 @@ class Body:
 
     def __reduce__(self) -> tuple[object, ...]:
         options: dict[str, object] = {"motion": self.motion, "closed": self.closed}
-        if self._radius:
-            options["radius"] = str(self._radius)
+        if self.exact_radius:
+            options["radius"] = str(self.exact_radius)
         if self._properties:
             options["properties"] = self._properties
-        given = self._shape.given()
+        given = self.exact_shape.given()
         if self._parts is not None:
             from exactpt.motion.rings import parts_given
 
@@ -434,7 +445,7 @@ class Body:
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
-        rounded = f", radius {show(self._radius)}" if self._radius else ""
+        rounded = f", radius {show(self.exact_radius)}" if self.exact_radius else ""
         rings = f" in {counted(len(self.rings), 'ring')}" if self.has_rings else ""
         vertices = counted(self.size, "vertex")
         return f"<Body {in_brief(self.name, 60)}: {what} of {vertices}{rings}{rounded}>"

@@ -30,7 +30,7 @@ def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
     triples = list(zip(ring, [*ring[1:], ring[0]], [*ring[2:], *ring[:2]], strict=True))
     time = start
     while True:
-        piece = body._piece_after(time)
+        piece = body.exact_piece_after(time)
         until = end if piece.until is None else min(piece.until, end)
         now = AlgebraicNumber(time)
         for a, b, c in triples:

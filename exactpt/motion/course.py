@@ -72,18 +72,18 @@ class Piece:
         """Return the position of a vertex at a rational time of the piece."""
         moved = self.translation
         if moved is None or not moved[0].is_exact:
-            return self.track(vertex)._at(t)
+            return self.track(vertex).exact_at(t)
         places, translation = moved
-        dx, dy = translation._at(t)
+        dx, dy = translation.exact_at(t)
         return of_double(places.xs[vertex]) + dx, of_double(places.ys[vertex]) + dy
 
     def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """Return the positions of all vertices at a rational time of the piece."""
         moved = self.translation
         if moved is None or not moved[0].is_exact:
-            return [track._at(t) for track in self.tracks]
+            return [track.exact_at(t) for track in self.tracks]
         (xs, ys, _), translation = moved
-        dx, dy = translation._at(t)
+        dx, dy = translation.exact_at(t)
         return [(of_double(x) + dx, of_double(y) + dy) for x, y in zip(xs, ys, strict=True)]
 
     def turns_left(self, ring: range, t: QQ) -> bool:
@@ -108,7 +108,7 @@ class Piece:
         if moved is None or not moved[0].is_exact:
             return None
         places, translation = moved
-        path = translation.x._coefficients
+        path = translation.x.exact_coefficients
         if len(path) > 2:
             return None
         x = of_double(places.xs[vertex])
@@ -120,7 +120,7 @@ class Piece:
         if moved is None:
             return self.positions(t)
         (xs, ys, _), translation = moved
-        dx, dy = translation._at(t)
+        dx, dy = translation.exact_at(t)
         return [(of_double(of(xs)) + dx, of_double(of(ys)) + dy) for of in (min, max)]
 
 
@@ -145,7 +145,7 @@ class Course:
         self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
         self.breakpoints: tuple[QQ, ...] = tuple([frame.t for frame in shape.keyframes])
         if isinstance(motion, Pieces):
-            self.breakpoints = tuple(sorted({*self.breakpoints, *motion._until}))
+            self.breakpoints = tuple(sorted({*self.breakpoints, *motion.exact_until}))
             self._check_continuity(motion)
 
     def after(self, t: QQ) -> Piece:
@@ -155,7 +155,7 @@ class Course:
         if end not in self._pieces:
             motion = self.motion
             if isinstance(motion, Pieces):
-                motion = motion.motions[bisect_right(motion._until, t)]
+                motion = motion.motions[bisect_right(motion.exact_until, t)]
             self._pieces[end] = Piece(self._shape, t, motion, end)
         return self._pieces[end]
 
@@ -167,11 +167,11 @@ class Course:
         return last[1][:]
 
     def _check_continuity(self, motion: Pieces) -> None:
-        for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
+        for t, (before, after) in zip(motion.exact_until, pairwise(motion.motions), strict=True):
             if (
                 isinstance(before, (Translation, Rigid))
                 and isinstance(after, (Translation, Rigid))
-                and before._map_at(t) == after._map_at(t)  # noqa: SLF001
+                and before.exact_map_at(t) == after.exact_map_at(t)
             ):
                 continue
             shape = self._shape.after(t)
@@ -193,5 +193,5 @@ def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tupl
     places = []
     for position in shape:
         check_budget()
-        places.append(motion.track(position)._at(t))
+        places.append(motion.track(position).exact_at(t))
     return places

@@ -59,11 +59,11 @@ def displacement(body: Body, start: QQ, end: QQ) -> QQ:
     """
     motion = body.motion
     if isinstance(motion, Spline):
-        off = motion._error
+        off = motion.exact_error
     elif isinstance(motion, PosePath):
-        off = motion._place_error + _longest_arm(body, motion, start, end) * motion._error
+        off = motion.exact_place_error + _longest_arm(body, motion, start, end) * motion.exact_error
     elif isinstance(motion, Spin):
-        off = _longest_arm(body, motion, start, end) * motion._error
+        off = _longest_arm(body, motion, start, end) * motion.exact_error
     else:
         return QQ(0)
     return _rounded_up(off) if off else off
@@ -77,9 +77,9 @@ def has_assumed_error(motion: Motion) -> bool:
     (False, True)
     """
     if isinstance(motion, Spline):
-        return motion._error > 0
+        return motion.exact_error > 0
     if isinstance(motion, PosePath):
-        return motion._assumed_angle_error > 0 or motion._assumed_place_error() > 0
+        return motion.exact_assumed_angle_error > 0 or motion.exact_assumed_place_error() > 0
     return False
 
 
@@ -97,20 +97,20 @@ def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
         return Placed(body, displacement)
     error = QQ(0)
     if isinstance(motion, PosePath):
-        error = motion._assumed_place_error()
-        if motion._assumed_angle_error:
-            error += _longest_arm(body, motion, t, t) * motion._assumed_angle_error
+        error = motion.exact_assumed_place_error()
+        if motion.exact_assumed_angle_error:
+            error += _longest_arm(body, motion, t, t) * motion.exact_assumed_angle_error
     return Placed(body.with_motion(unturned), error)
 
 
 def _unturned(motion: Motion, t: QQ) -> Translation | None:
     """Return a translation to where a formula puts a body at t; None if it turns, or is exact."""
     if isinstance(motion, PosePath):
-        x, y, angle = motion._pose(t)
+        x, y, angle = motion.exact_pose(t)
         return None if angle else Translation([x], [y])
     if isinstance(motion, Spin):
-        turning_since_0 = min(max(t, motion._until[0]), motion._until[-1])
-        if motion._omega * turning_since_0:
+        turning_since_0 = min(max(t, motion.exact_until[0]), motion.exact_until[-1])
+        if motion.exact_omega * turning_since_0:
             return None
         turn = next(turn for turn in motion.motions if isinstance(turn, Rigid))
         return Translation(turn.x, turn.y)
@@ -119,7 +119,7 @@ def _unturned(motion: Motion, t: QQ) -> Translation | None:
 
 def _longest_arm(body: Body, turning: Pieces, start: QQ, end: QQ) -> QQ:
     """Return a bound on the distance of points of a body from the pivot of its motion."""
-    pivot = next(turn._pivot for turn in turning.motions if isinstance(turn, Rigid))
+    pivot = next(turn.exact_pivot for turn in turning.motions if isinstance(turn, Rigid))
     return root_bounds(max(_squared_arms(body, pivot, start, end))).high
 
 
@@ -129,10 +129,10 @@ def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
     Between keyframes a vertex moves on a segment.
     """
     x, y = pivot
-    for frame in body._shape.keyframes:
+    for frame in body.exact_shape.keyframes:
         for u, v in frame.vertices:
             yield (QQ(u) - x) ** 2 + (QQ(v) - y) ** 2
-    for px, py in body._shape.positions:
+    for px, py in body.exact_shape.positions:
         dx, dy = px - Polynomial([x]), py - Polynomial([y])
         yield bound_on(dx * dx + dy * dy, start, end)
 

@@ -87,7 +87,7 @@ class Enclosures:
             return None
         check_budget()
         places, translation = moved
-        paths = translation.x._coefficients, translation.y._coefficients
+        paths = translation.x.exact_coefficients, translation.y.exact_coefficients
         size = max(*map(len, paths), 1)
         (sx, sy), (cx, cy) = self._normalization.scale, self._normalization.center
         x_shift, x = self._path(paths[0], size, sx, cx)
@@ -253,12 +253,12 @@ def _arm(track: Track, common: _Common, normalization: Normalization) -> Arm | N
 
 def _common_of(turning: Turning, normalization: Normalization) -> _Common | None:
     """Return the common part of the arms of all vertices of a motion; None if there is none."""
-    paths = turning.x._coefficients, turning.y._coefficients
+    paths = turning.x.exact_coefficients, turning.y.exact_coefficients
     h = turning.half_turn
     w = ONE + h * h
     if w.degree > 2 or max(map(len, paths)) > 3:
         return None
-    w_now = normalization.in_time(list(w._coefficients))
+    w_now = normalization.in_time(list(w.exact_coefficients))
     divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
     pivots = [
         _floats(normalization.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
@@ -267,9 +267,9 @@ def _common_of(turning: Turning, normalization: Normalization) -> _Common | None
     denominator = _floats(_quotients(w_now, divisor), 3)
     if not all(map(_fits_in_arms, chain(denominator, *pivots))):
         return None
-    parts = ([*(w * path)._coefficients, *[QQ(0)] * 3][:3] for path in (turning.x, turning.y))
+    parts = ([*(w * path).exact_coefficients, *[QQ(0)] * 3][:3] for path in (turning.x, turning.y))
     (pivot_x, pivot_y), (part_x, part_y) = pivots, parts
-    constants = w._coefficients[0], w_now[0], divisor
+    constants = w.exact_coefficients[0], w_now[0], divisor
     return _Common(*constants, pivot_x, pivot_y, part_x, part_y, denominator)
 
 

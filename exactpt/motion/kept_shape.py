@@ -60,7 +60,7 @@ def _loss_of_motion(motion: SimpleMotion, start: QQ, end: QQ) -> str | None:
     if time is None:
         return None
     number = time.simplified()
-    when = show(number._low) if number.is_rational else f"about {float(number)!r}"
+    when = show(number.exact_low) if number.is_rational else f"about {float(number)!r}"
     return f"its affine motion collapses at t = {when}"
 
 
@@ -69,7 +69,7 @@ def _first_collapse(motion: Affine, start: QQ, end: QQ) -> AlgebraicNumber | Non
     (a, b), (c, d) = motion.matrix
     determinant = a * d - b * c
     begin = AlgebraicNumber(start)
-    if determinant._at(start) == 0:
+    if determinant.exact_at(start) == 0:
         return begin
-    roots = roots_after(determinant._integer(), begin, end)  # noqa: SLF001
+    roots = roots_after(determinant.exact_integers(), begin, end)
     return next((root.time for root in roots), None)

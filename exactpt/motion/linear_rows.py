@@ -104,7 +104,7 @@ def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None
     largest = float(np.max(np.abs(scaled), where=lost != 0.0, initial=0.0))
     turns = _turns(given.vertices, given.offsets, owner)
     for k in np.flatnonzero(turns == 0).tolist():
-        piece = bodies[k]._piece_after(start)
+        piece = bodies[k].exact_piece_after(start)
         turns[k] = 1 if piece.turns_left(range(int(counts[k])), start) else -1
     indices = np.where(turns[owner] > 0, number, counts[owner] - 1 - number)
     rows = first[owner] + indices
@@ -136,7 +136,7 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     paths: list[QQ | float] = []
     for body in bodies:
         check_budget()
-        near, motion = body._shape.near, body.motion
+        near, motion = body.exact_shape.near, body.motion
         if (
             near is None
             or not near.is_exact
@@ -145,7 +145,10 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
             or not isinstance(motion, Translation)
         ):
             return None
-        x, y = (f._coefficients if f._doubles is None else f._doubles for f in (motion.x, motion.y))
+        x, y = (
+            f.exact_coefficients if f.exact_doubles is None else f.exact_doubles
+            for f in (motion.x, motion.y)
+        )
         if len(x) > 2 or len(y) > 2:
             return None
         for path in (x, y):

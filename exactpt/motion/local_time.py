@@ -79,7 +79,7 @@ def in_local_time(
             raise InputError(f"step {i}: a duration is positive: {show(duration)}")
         begin += duration
         pieces.append((begin, motion))
-        x, y = motion.x._at(begin), motion.y._at(begin)
+        x, y = motion.x.exact_at(begin), motion.y.exact_at(begin)
     return Pieces([*pieces, (None, _held(pieces[-1][1], begin))])
 
 
@@ -95,29 +95,31 @@ class Spline(Pieces):
         InputError: if an argument is invalid.
     """
 
-    __slots__ = ("_error",)
+    __slots__ = ("exact_error",)
 
     def __init__(
         self, pieces: Sequence[tuple[Rational | None, SimpleMotion]], error: Rational
     ) -> None:
         super().__init__(pieces)
-        self._error = rational(error)
-        if self._error < 0:
-            raise InputError(f"the error of a spline must not be negative, got {show(self._error)}")
+        self.exact_error = rational(error)
+        if self.exact_error < 0:
+            raise InputError(
+                f"the error of a spline must not be negative, got {show(self.exact_error)}"
+            )
 
     @property
     def error(self) -> Fraction:
         """The largest distance of the given curve from the pieces: the jumps that were closed."""
-        return fraction(self._error)
+        return fraction(self.exact_error)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         (pieces,), _ = super()._given()
-        return (pieces, str(self._error)), {}
+        return (pieces, str(self.exact_error)), {}
 
     def __repr__(self) -> str:
-        span = f"from t = {show(self._until[0])} to {show(self._until[-1])}"
-        pieces = counted(len(self._until) - 1, "piece")
-        return f"<Spline {span}, {pieces}, error {show(self._error)}>"
+        span = f"from t = {show(self.exact_until[0])} to {show(self.exact_until[-1])}"
+        pieces = counted(len(self.exact_until) - 1, "piece")
+        return f"<Spline {span}, {pieces}, error {show(self.exact_error)}>"
 
 
 def spline(curve: PiecewisePolynomial) -> Spline:
@@ -164,10 +166,10 @@ def _composed(motion: SimpleMotion, time: Polynomial, x: QQ, y: QQ) -> Translati
     if isinstance(motion, Rigid):
         return Rigid(
             motion.half_turn(time),
-            pivot=motion._pivot,
+            pivot=motion.exact_pivot,
             x=motion.x(time) + x,
             y=motion.y(time) + y,
-            orientation=motion._orientation,
+            orientation=motion.exact_orientation,
         )
     if isinstance(motion, Affine):
         matrix = [[f(time) for f in row] for row in motion.matrix]

@@ -68,11 +68,11 @@ class _Given:
 
 def _sum(f: Polynomial, g: Polynomial) -> tuple[QQ, ...]:
     """Return the coefficients of f + g, without any object besides if f is a constant."""
-    a, b = f._coefficients, g._coefficients
+    a, b = f.exact_coefficients, g.exact_coefficients
     if not a:
         return b
     if len(a) > 1 or len(b) < 2:
-        return (f + g)._coefficients
+        return (f + g).exact_coefficients
     return (a[0] + b[0], *b[1:])
 
 
@@ -118,13 +118,13 @@ class Translation(_Given):
         x, y = position
         return translated(_sum(x, self.x), _sum(y, self.y))
 
-    def _at(self, t: QQ) -> tuple[QQ, QQ]:
+    def exact_at(self, t: QQ) -> tuple[QQ, QQ]:
         """Return the displacement at a time."""
-        return self.x._at(t), self.y._at(t)
+        return self.x.exact_at(t), self.y.exact_at(t)
 
-    def _map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
+    def exact_map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
         """As `Rigid._map_at`."""
-        return *_UNTURNED, self.x._at(t), self.y._at(t)
+        return *_UNTURNED, self.x.exact_at(t), self.y.exact_at(t)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.x, self.y), {}
@@ -155,7 +155,7 @@ class Rigid(_Given):
         InputError: if an argument is invalid, such as an orientation that is not a unit vector.
     """
 
-    __slots__ = ("_orientation", "_pivot", "_turn", "half_turn", "x", "y")
+    __slots__ = ("_turn", "exact_orientation", "exact_pivot", "half_turn", "x", "y")
 
     def __init__(
         self,
@@ -167,11 +167,11 @@ class Rigid(_Given):
         orientation: Sequence[Rational] = (1, 0),
     ) -> None:
         px, py = rationals(pivot, 2, "a pivot has two coordinates")
-        self._pivot: tuple[QQ, QQ] = (px, py)
+        self.exact_pivot: tuple[QQ, QQ] = (px, py)
         c, s = rationals(orientation, 2, "an orientation is a cosine and a sine")
         if c * c + s * s != 1:
             raise InputError(f"an orientation is a unit vector: {show(c, s)}")
-        self._orientation: tuple[QQ, QQ] = (c, s)
+        self.exact_orientation: tuple[QQ, QQ] = (c, s)
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
@@ -180,35 +180,38 @@ class Rigid(_Given):
     @property
     def pivot(self) -> tuple[Fraction, Fraction]:
         """The centre of rotation."""
-        return place(self._pivot)
+        return place(self.exact_pivot)
 
     @property
     def orientation(self) -> tuple[Fraction, Fraction]:
         """The cosine and the sine of the angle by which the body is turned first."""
-        return place(self._orientation)
+        return place(self.exact_orientation)
 
     def track(self, position: Position) -> Track:
         """Return the trajectory of the vertex with this position in the rest frame."""
         if self._turn is None:
             from exactpt.motion.turn import turn_of
 
-            path = Polynomial([self._pivot[0]]) + self.x, Polynomial([self._pivot[1]]) + self.y
-            self._turn = turn_of(self.half_turn, self._pivot, path, self._orientation)
+            path = (
+                Polynomial([self.exact_pivot[0]]) + self.x,
+                Polynomial([self.exact_pivot[1]]) + self.y,
+            )
+            self._turn = turn_of(self.half_turn, self.exact_pivot, path, self.exact_orientation)
         return self._turn.track(position)
 
-    def _map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
+    def exact_map_at(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
         """Return the map at a time: cosine and sine, then where it takes the origin."""
-        (c, s), h, (px, py) = self._orientation, self.half_turn._at(t), self._pivot
+        (c, s), h, (px, py) = self.exact_orientation, self.half_turn.exact_at(t), self.exact_pivot
         w = 1 + h * h
         cosine, sine = (c * (2 - w) - 2 * s * h) / w, (s * (2 - w) + 2 * c * h) / w
         x, y = px - cosine * px + sine * py, py - sine * px - cosine * py
-        return cosine, sine, x + self.x._at(t), y + self.y._at(t)
+        return cosine, sine, x + self.x.exact_at(t), y + self.y.exact_at(t)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
-        pivot = (str(self._pivot[0]), str(self._pivot[1]))
+        pivot = (str(self.exact_pivot[0]), str(self.exact_pivot[1]))
         given: dict[str, object] = {"pivot": pivot, "x": self.x, "y": self.y}
-        if self._orientation[0] != 1:
-            given["orientation"] = (str(self._orientation[0]), str(self._orientation[1]))
+        if self.exact_orientation[0] != 1:
+            given["orientation"] = (str(self.exact_orientation[0]), str(self.exact_orientation[1]))
         return (self.half_turn,), given
 
     def __repr__(self) -> str:
@@ -260,7 +263,7 @@ class Pieces(_Given):
     which knows the vertices, checks this.
     """
 
-    __slots__ = ("_until", "motions")
+    __slots__ = ("exact_until", "motions")
 
     def __init__(self, pieces: Sequence[tuple[Rational | None, SimpleMotion]]) -> None:
         if not pieces:
@@ -280,13 +283,13 @@ class Pieces(_Given):
                 raise InputError(
                     f"pieces end in increasing order: {show(before)}, then {show(after)}"
                 )
-        self._until: tuple[QQ, ...] = tuple(ends)
+        self.exact_until: tuple[QQ, ...] = tuple(ends)
         self.motions: tuple[SimpleMotion, ...] = tuple(motion for _, motion in pieces)
 
     @property
     def until(self) -> tuple[Fraction, ...]:
         """The end times of all motions but the last."""
-        return fractions(self._until)
+        return fractions(self.exact_until)
 
     @property
     def pieces(self) -> tuple[tuple[Fraction | None, SimpleMotion], ...]:
@@ -294,11 +297,11 @@ class Pieces(_Given):
         return tuple(zip([*self.until, None], self.motions, strict=True))
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
-        ends = [*map(str, self._until), None]
+        ends = [*map(str, self.exact_until), None]
         return (tuple(zip(ends, self.motions, strict=True)),), {}
 
     def __repr__(self) -> str:
-        ends = [*map(str, self._until), None]
+        ends = [*map(str, self.exact_until), None]
         return call_in_brief("Pieces", list(zip(ends, self.motions, strict=True)))
 
 

@@ -81,11 +81,11 @@ class Normalization:
         if self.is_identity:
             return t.enclosure()
         while not t.is_rational:
-            lo, hi = self.time(t._low)[0], self.time(t._high)[1]
+            lo, hi = self.time(t.exact_low)[0], self.time(t.exact_high)[1]
             if hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf):
                 return lo, hi
             t.refine()
-        return self.time(t._low)
+        return self.time(t.exact_low)
 
     def exact_time(self, t: float) -> QQ:
         """Return the rational time of which a double is the normalised value."""

@@ -36,7 +36,7 @@ class Outline(NamedTuple):
 def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
     """Return the motions by one formula that it consists of, each with its end."""
     if isinstance(motion, Pieces):
-        return list(zip(motion.motions, (*motion._until, None), strict=True))
+        return list(zip(motion.motions, (*motion.exact_until, None), strict=True))
     return [(motion, None)]
 
 
@@ -56,19 +56,19 @@ def may_touch_itself(body: Body) -> bool:
     A body with a radius does not by definition, nor does one with rings that touch: it keeps its
     shape.
     """
-    return not (body._radius or is_rigid(body) or body._ring_touches)
+    return not (body.exact_radius or is_rigid(body) or body.exact_ring_touches)
 
 
 def rest_outline(body: Body) -> Outline | None:
     """Return the vertices in the rest frame; None if the body deforms there, or is out of range."""
-    near = body._shape.near
+    near = body.exact_shape.near
     if near is not None:
         return _outline(near.xs, near.ys, exact=near.is_exact)
     points: list[tuple[QQ, QQ]] = []
     for x, y in body.vertices:
         if x.degree > 0 or y.degree > 0:
             return None
-        points.append((x._at(QQ(0)), y._at(QQ(0))))
+        points.append((x.exact_at(QQ(0)), y.exact_at(QQ(0))))
     return _nearest(points) if points else None
 
 
@@ -78,14 +78,14 @@ def outline_at(body: Body, t: QQ) -> Outline | None:
         shape = rest_outline(body)
         if shape is not None:
             return shape
-    return _nearest(body._at(t))
+    return _nearest(body.exact_at(t))
 
 
 def is_simple_by_doubles(body: Body, t: QQ) -> bool:
     """Return True if a body of one ring or chain certainly is simple at a time, with an area."""
     if body.has_rings:
         return False
-    doubles = body._shape.doubles
+    doubles = body.exact_shape.doubles
     if doubles is not None and isinstance(body.motion, (Translation, Rigid)):
         return is_surely_simple(*doubles, closed=body.closed)
     shape = outline_at(body, t)
@@ -161,12 +161,12 @@ class Straight:
         point = self._points[i]
         if point is None:
             x, y = self.body.vertices[i]
-            self._points[i] = point = x._at(QQ(0)), y._at(QQ(0))
+            self._points[i] = point = x.exact_at(QQ(0)), y.exact_at(QQ(0))
         return point
 
     def line(self) -> tuple[QQ, QQ, QQ, QQ]:
         """Return the exact coefficients of the translation: c in x and y, v in x and y."""
-        x, y = self.motion.x._coefficients, self.motion.y._coefficients
+        x, y = self.motion.x.exact_coefficients, self.motion.y.exact_coefficients
         zero = QQ(0)
         return (
             x[0] if x else zero,
@@ -192,10 +192,10 @@ def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float
 
     The first coefficient is greater by ``shift``.
     """
-    near = f._doubles
+    near = f.exact_doubles
     if near is not None and shift is None:
         return near[0] if near else 0.0, near[1] if len(near) > 1 else 0.0, 0.0, 0.0
-    exact = f._coefficients
+    exact = f.exact_coefficients
     c = nearest_float((exact[0] if exact else QQ(0)) + (shift or 0)) if exact or shift else 0.0
     v = nearest_float(exact[1]) if len(exact) > 1 else 0.0
     return c, v, _off(abs(c)), _off(abs(v))
@@ -217,7 +217,7 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
         return None
     firsts: list[tuple[float, float]] = []
     for body in bodies:
-        near, motion = body._shape.near, pieces_of(body.motion)[0][0]
+        near, motion = body.exact_shape.near, pieces_of(body.motion)[0][0]
         if not isinstance(motion, Translation) or not body.vertices:
             return None
         x, y = (near.xs[0], near.ys[0]) if near else map(_constant, body.vertices[0])
@@ -231,25 +231,27 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
     motion, _ = pieces_of(bodies[0].motion)[0]
     assert isinstance(motion, Translation)  # noqa: S101 - seen above
     a, b = bodies[0].vertices[0]
-    return a._at(QQ(0)) + motion.x._at(QQ(0)), b._at(QQ(0)) + motion.y._at(QQ(0))
+    return a.exact_at(QQ(0)) + motion.x.exact_at(QQ(0)), b.exact_at(QQ(0)) + motion.y.exact_at(
+        QQ(0)
+    )
 
 
 def _is_exact(body: Body) -> bool:
     """Return True if doubles have the vertices and the first motion, a translation, exactly."""
-    near, motion = body._shape.near, body.motion
+    near, motion = body.exact_shape.near, body.motion
     if isinstance(motion, Pieces):
         motion = motion.motions[0]
     return (
         isinstance(motion, Translation)
-        and motion.x._doubles is not None
-        and motion.y._doubles is not None
+        and motion.x.exact_doubles is not None
+        and motion.y.exact_doubles is not None
         and near is not None
         and near.is_exact
     )
 
 
 def _constant(f: Polynomial) -> float:
-    return nearest_float(f._at(QQ(0)))
+    return nearest_float(f.exact_at(QQ(0)))
 
 
 def straight_pieces(
@@ -272,7 +274,7 @@ def straight_pieces(
     points: list[tuple[QQ, QQ] | None] = [None] * body.size
     shift: tuple[QQ, QQ] | None = None
     if origin is not None:
-        places = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+        places = [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices]
         points = [*places]
         (x, y) = places[0]
         shape = _nearest((px - x, py - y) for px, py in places)

@@ -58,13 +58,13 @@ def angle_error(turn: Rigid, a: QQ, b: QQ, angle: Polynomial, error: QQ) -> QQ:
     change = _primitive(2 * slope - theta.derivative() * (ONE + h * h))
     most = max(bound_on(change, QQ(i, _PARTS), QQ(i + 1, _PARTS)) for i in range(_PARTS))
     factor = 1 + 2 * bound_on(h, _FIRST, _LAST) * bound_on(slope, _FIRST, _LAST)
-    return _error_at(turn, a, angle._at(a), error) + most * factor
+    return _error_at(turn, a, angle.exact_at(a), error) + most * factor
 
 
 def _error_at(turn: Rigid, t: QQ, angle: QQ, error: QQ) -> QQ:
     """Return a bound on the error of the angle at a time."""
     bits = bits_for(error, angle) + 8
-    h, (c, s) = turn.half_turn._at(t), turn._orientation
+    h, (c, s) = turn.half_turn.exact_at(t), turn.exact_orientation
     cos, sin = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
     low, high = angle_of((c * cos - s * sin, c * sin + s * cos), bits)
     full = tuple(2 * bound for bound in pi_bounds(bits))
@@ -79,4 +79,4 @@ def place_error_squared(turn: Rigid, a: QQ, b: QQ, x: Polynomial, y: Polynomial)
 
 
 def _primitive(f: Polynomial) -> Polynomial:
-    return Polynomial([0, *(c / (i + 1) for i, c in enumerate(f._coefficients))])
+    return Polynomial([0, *(c / (i + 1) for i, c in enumerate(f.exact_coefficients))])

@@ -73,7 +73,13 @@ class PosePath(Pieces):
             needed.
     """
 
-    __slots__ = ("_assumed_angle_error", "_error", "_place_error", "_poses", "_times")
+    __slots__ = (
+        "exact_assumed_angle_error",
+        "exact_error",
+        "exact_place_error",
+        "exact_poses",
+        "exact_times",
+    )
 
     def __init__(
         self,
@@ -84,7 +90,7 @@ class PosePath(Pieces):
         place_error: Rational = 0,
     ) -> None:
         self._hold(times, poses, error, place_error)
-        self._fit(self._place_error)
+        self._fit(self.exact_place_error)
 
     @classmethod
     def _of_inexact(
@@ -117,13 +123,13 @@ class PosePath(Pieces):
     def _fit(self, place_error: QQ) -> None:
         """Make the pieces, with at most this error of the translation."""
         if not place_error:
-            for i, pose in enumerate(self._poses):
+            for i, pose in enumerate(self.exact_poses):
                 for name, f in zip("xy", pose[:2], strict=True):
                     if f.degree > DEGREE:
                         raise InputError(
                             f"piece {i}: {name} has degree {f.degree}: give a place_error"
                         )
-        angle_error = self._error - self._assumed_angle_error
+        angle_error = self.exact_error - self.exact_assumed_angle_error
         Pieces.__init__(self, pieces_along(self._spans(), angle_error, place_error))
 
     def _hold(
@@ -135,30 +141,30 @@ class PosePath(Pieces):
         assumed_angle_error: Rational = 0,
     ) -> None:
         """Check and keep the path and its errors."""
-        self._times = tuple(map(rational, listed("times", times)))
-        self._poses = tuple(_pose(i, row) for i, row in enumerate(listed("poses", poses)))
-        self._error, self._place_error = rational(error), rational(place_error)
-        self._assumed_angle_error = rational(assumed_angle_error)
-        if len(self._times) != len(self._poses) + 1 or not self._poses:
+        self.exact_times = tuple(map(rational, listed("times", times)))
+        self.exact_poses = tuple(_pose(i, row) for i, row in enumerate(listed("poses", poses)))
+        self.exact_error, self.exact_place_error = rational(error), rational(place_error)
+        self.exact_assumed_angle_error = rational(assumed_angle_error)
+        if len(self.exact_times) != len(self.exact_poses) + 1 or not self.exact_poses:
             raise InputError(
                 f"a path has at least one pose, and one pose fewer than times: "
-                f"{len(self._times)} times, {len(self._poses)} poses"
+                f"{len(self.exact_times)} times, {len(self.exact_poses)} poses"
             )
-        for t, until in pairwise(self._times):
+        for t, until in pairwise(self.exact_times):
             if t >= until:
                 raise InputError(f"times increase: {show(t)}, then {show(until)}")
-        if self._error <= 0:
-            raise InputError(f"an error is positive: {show(self._error)}")
-        _check_place_error(self._place_error)
-        if not 0 <= self._assumed_angle_error < self._error:
+        if self.exact_error <= 0:
+            raise InputError(f"an error is positive: {show(self.exact_error)}")
+        _check_place_error(self.exact_place_error)
+        if not 0 <= self.exact_assumed_angle_error < self.exact_error:
             raise InputError(
                 f"an assumed_angle_error must be at least 0 and less than the error, "
-                f"{show(self._error)}, got {show(self._assumed_angle_error)}"
+                f"{show(self.exact_error)}, got {show(self.exact_assumed_angle_error)}"
             )
-        for i, (before_it, pose) in enumerate(pairwise(self._poses)):
-            end = self._times[i + 1]
+        for i, (before_it, pose) in enumerate(pairwise(self.exact_poses)):
+            end = self.exact_times[i + 1]
             for name, f, g in zip(("x", "y", "the angle"), before_it, pose, strict=True):
-                jump = g._at(QQ(0)) - f._at(end - self._times[i])
+                jump = g.exact_at(QQ(0)) - f.exact_at(end - self.exact_times[i])
                 if jump:
                     by = f"{show(jump)} ({float(jump):.3g})"
                     raise InputError(f"piece {i + 1}: {name} jumps at t = {show(end)} by {by}")
@@ -309,14 +315,16 @@ class PosePath(Pieces):
         self._hold(times, poses, error, place_error, assumed_angle_error)
         if (wrong := self._not_within()) is not None:
             raise InputError(
-                f"the pieces do not follow the path within {show(self._error)} (piece {wrong})"
+                f"the pieces do not follow the path within {show(self.exact_error)} (piece {wrong})"
             )
         return self
 
     def _spans(self) -> list[tuple[QQ, QQ, Pose]]:
         """Return beginning, end, and pose as polynomials of t of each piece of the path."""
         spans = list[tuple[QQ, QQ, Pose]]()
-        for (begin, end), (x, y, angle) in zip(pairwise(self._times), self._poses, strict=True):
+        for (begin, end), (x, y, angle) in zip(
+            pairwise(self.exact_times), self.exact_poses, strict=True
+        ):
             since = Polynomial([-begin, 1])
             spans.append((begin, end, (x(since), y(since), angle(since))))
         return spans
@@ -326,40 +334,40 @@ class PosePath(Pieces):
 
         The angle of the pieces must be within the part of the error that is not assumed.
         """
-        provable = self._error - self._assumed_angle_error
-        ends, spans = self._until, self._spans()
-        if len(ends) < 2 or (ends[0], ends[-1]) != (self._times[0], self._times[-1]):
+        provable = self.exact_error - self.exact_assumed_angle_error
+        ends, spans = self.exact_until, self._spans()
+        if len(ends) < 2 or (ends[0], ends[-1]) != (self.exact_times[0], self.exact_times[-1]):
             return 0
         rows = [(ends[0], ends[0]), *pairwise(ends), (ends[-1], ends[-1])]
         k = 0
         for i, ((a, b), turn) in enumerate(zip(rows, self.motions, strict=True)):
             while k < len(spans) - 1 and a >= spans[k][1]:
                 k += 1
-            if not isinstance(turn, Rigid) or any(turn._pivot) or b > spans[k][1]:
+            if not isinstance(turn, Rigid) or any(turn.exact_pivot) or b > spans[k][1]:
                 return i
             if a == b and max(turn.half_turn.degree, turn.x.degree, turn.y.degree) > 0:
                 return i
             x, y, angle = spans[k][2]
             if angle_error(turn, a, b, angle, provable) > provable:
                 return i
-            if place_error_squared(turn, a, b, x, y) > self._place_error**2:
+            if place_error_squared(turn, a, b, x, y) > self.exact_place_error**2:
                 return i
         return None
 
     @property
     def times(self) -> tuple[Fraction, ...]:
         """The times at which the pieces of the path begin, and the last one ends."""
-        return fractions(self._times)
+        return fractions(self.exact_times)
 
     @property
     def error(self) -> Fraction:
         """The largest error of the angle, in radians."""
-        return fraction(self._error)
+        return fraction(self.exact_error)
 
     @property
     def place_error(self) -> Fraction:
         """The largest error of the translation."""
-        return fraction(self._place_error)
+        return fraction(self.exact_place_error)
 
     @property
     def assumed_angle_error(self) -> Fraction:
@@ -367,7 +375,7 @@ class PosePath(Pieces):
 
         It counts at every time; the rest of `error` is proved, and is 0 where the fit is exact.
         """
-        return fraction(self._assumed_angle_error)
+        return fraction(self.exact_assumed_angle_error)
 
     @property
     def assumed_place_error(self) -> Fraction:
@@ -376,20 +384,20 @@ class PosePath(Pieces):
         It counts at every time; the rest of `place_error` is proved, and is 0 where the fit is
         exact.
         """
-        return fraction(self._assumed_place_error())
+        return fraction(self.exact_assumed_place_error())
 
-    def _assumed_place_error(self) -> QQ:
+    def exact_assumed_place_error(self) -> QQ:
         """Return the place error less the proved distance of the pieces from the poses."""
-        if not self._place_error:
+        if not self.exact_place_error:
             return QQ(0)
         spans, k, most = self._spans(), 0, QQ(0)
-        for (a, b), turn in zip(pairwise(self._until), self.motions[1:-1], strict=True):
+        for (a, b), turn in zip(pairwise(self.exact_until), self.motions[1:-1], strict=True):
             while a >= spans[k][1]:
                 k += 1
             x, y, _ = spans[k][2]
             if isinstance(turn, Rigid):
                 most = max(most, place_error_squared(turn, a, b, x, y))
-        return self._place_error - root_bounds(most).low
+        return self.exact_place_error - root_bounds(most).low
 
     def with_place_error(self, more: Rational) -> PosePath:
         """Return the same pieces for a true path that is known less well.
@@ -404,34 +412,44 @@ class PosePath(Pieces):
         """
         further = rational(more)
         _check_place_error(further)
-        total = self._place_error + further
+        total = self.exact_place_error + further
         return PosePath.of_pieces(
-            self.pieces, self._times, self._poses, self._error, total, self._assumed_angle_error
+            self.pieces,
+            self.exact_times,
+            self.exact_poses,
+            self.exact_error,
+            total,
+            self.exact_assumed_angle_error,
         )
 
     def pose(self, t: Rational) -> tuple[Fraction, Fraction, Fraction]:
         """Return x, y and the angle of the path itself at a time."""
-        x, y, angle = fractions(self._pose(rational(t)))
+        x, y, angle = fractions(self.exact_pose(rational(t)))
         return x, y, angle
 
-    def _pose(self, t: QQ) -> tuple[QQ, QQ, QQ]:
-        t = min(max(t, self._times[0]), self._times[-1])
-        i = max(k for k, begin in enumerate(self._times[:-1]) if begin <= t)
-        x, y, angle = (f._at(t - self._times[i]) for f in self._poses[i])
+    def exact_pose(self, t: QQ) -> tuple[QQ, QQ, QQ]:
+        """Return x, y and the angle at a time; beyond the ends, those at the nearest end."""
+        t = min(max(t, self.exact_times[0]), self.exact_times[-1])
+        i = max(k for k, begin in enumerate(self.exact_times[:-1]) if begin <= t)
+        x, y, angle = (f.exact_at(t - self.exact_times[i]) for f in self.exact_poses[i])
         return x, y, angle
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         (pieces,), _ = super()._given()
-        times = tuple(map(str, self._times))
-        errors = map(str, (self._error, self._place_error, self._assumed_angle_error))
-        return (pieces, times, self._poses, *errors), {}
+        times = tuple(map(str, self.exact_times))
+        errors = map(
+            str, (self.exact_error, self.exact_place_error, self.exact_assumed_angle_error)
+        )
+        return (pieces, times, self.exact_poses, *errors), {}
 
     def __reduce__(self) -> tuple[object, ...]:
         return PosePath.of_pieces, self._given()[0]
 
     def __repr__(self) -> str:
-        start, end, error = (show(q) for q in (self._times[0], self._times[-1], self._error))
-        pieces = counted(len(self._until) - 1, "piece")
+        start, end, error = (
+            show(q) for q in (self.exact_times[0], self.exact_times[-1], self.exact_error)
+        )
+        pieces = counted(len(self.exact_until) - 1, "piece")
         return f"<PosePath from t = {start} to {end}, {pieces}, error {error}>"
 
 

@@ -99,15 +99,15 @@ class _Builder:
     def _vector(self, t: QQ, angle: Polynomial) -> Vector:
         """Return the orientation at a time: the same for both pieces that end or begin at it."""
         if t not in self._vectors:
-            self._vectors[t] = vector_near(angle._at(t), self._error)
+            self._vectors[t] = vector_near(angle.exact_at(t), self._error)
         return self._vectors[t]
 
     def _rest(self, t: QQ, pose: Pose) -> Rigid:
         x, y, angle = pose
         return Rigid(
             ZERO,
-            x=self._place(x._at(t)),
-            y=self._place(y._at(t)),
+            x=self._place(x.exact_at(t)),
+            y=self._place(y.exact_at(t)),
             orientation=self._vector(t, angle),
         )
 
@@ -122,12 +122,12 @@ class _Builder:
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + cos) if cos >= _STRAIGHT else QQ(2)
         local = Polynomial([a, b - a])
         theta = angle(local)
-        first = theta._at(QQ(0))
-        if cos < _STRAIGHT or any(abs(theta._at(s) - first) > 1 for s in _NODES):
+        first = theta.exact_at(QQ(0))
+        if cos < _STRAIGHT or any(abs(theta.exact_at(s) - first) > 1 for s in _NODES):
             return None, 0.5
 
         def half(s: QQ) -> QQ:
-            return tangent_near((theta._at(s) - first) / 2, self._bits)
+            return tangent_near((theta.exact_at(s) - first) / 2, self._bits)
 
         back = Polynomial([-a / (b - a), 1 / (b - a)])
         if theta.degree > 0:
@@ -146,8 +146,8 @@ class _Builder:
 
     def _fit(self, f: Polynomial) -> Polynomial:
         """Return a cubic near a polynomial on [0, 1], with rounded ends."""
-        ends = self._place(f._at(QQ(0))), self._place(f._at(QQ(1)))
-        return _cubic(f._at, *ends, self._place_bits)
+        ends = self._place(f.exact_at(QQ(0))), self._place(f.exact_at(QQ(1)))
+        return _cubic(f.exact_at, *ends, self._place_bits)
 
 
 def _rate(part: QQ, power: int) -> float:

@@ -27,7 +27,7 @@ def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
         from exactpt.motion.infinitesimal import ring_of_copies
 
         return ring_of_copies(body.size)
-    piece = body._piece_after(t)
+    piece = body.exact_piece_after(t)
     turned: list[int] = []
     for rings in body.parts:
         for k, ring in enumerate(rings):

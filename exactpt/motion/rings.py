@@ -106,7 +106,7 @@ def rest_touches(
     """Return the points in which rings with these vertices touch; none if the vertices deform."""
     if not are_constant(vertices):
         return ()
-    points = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in vertices]
+    points = [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in vertices]
     return tuple(touch.point for touch in ring_meetings(points, edges, rings).touches)
 
 

@@ -157,7 +157,7 @@ def _near(positions: Sequence[Position]) -> Places | None:
     """Return vertices in doubles; None if not constant, out of range, or not given."""
     coordinates, is_exact = list[float](), True
     for coordinate in chain.from_iterable(positions):
-        coefficients = coordinate._coefficients
+        coefficients = coordinate.exact_coefficients
         value = coefficients[0] if coefficients else _ZERO
         near = nearest_float(value)
         coordinates.append(near)
@@ -174,7 +174,7 @@ def _given(vertex: Position) -> tuple[object, object]:
     """Return a vertex as an argument of the constructor; constants if it does not deform."""
     if vertex[0].degree > 0 or vertex[1].degree > 0:
         return vertex
-    x, y = (f._at(QQ(0)) for f in vertex)
+    x, y = (f.exact_at(QQ(0)) for f in vertex)
     return str(x), str(y)
 
 

@@ -73,7 +73,7 @@ class Spin(Pieces):
         InputError: if an argument is invalid, or more than 100,000 pieces are needed.
     """
 
-    __slots__ = ("_error", "_omega", "angle")
+    __slots__ = ("angle", "exact_error", "exact_omega")
 
     def __init__(
         self,
@@ -107,7 +107,7 @@ class Spin(Pieces):
         self._hold(rate, most)
 
     def _hold(self, omega: QQ, error: QQ) -> None:
-        self._omega, self._error = omega, error
+        self.exact_omega, self.exact_error = omega, error
         self.angle = Polynomial([0, omega])
 
     @classmethod
@@ -138,12 +138,12 @@ class Spin(Pieces):
     @property
     def omega(self) -> Fraction:
         """The angle by which the body turns in one unit of time, in radians."""
-        return fraction(self._omega)
+        return fraction(self.exact_omega)
 
     @property
     def error(self) -> Fraction:
         """The largest error of the angle, in radians."""
-        return fraction(self._error)
+        return fraction(self.exact_error)
 
     @property
     def pieces(self) -> tuple[tuple[Fraction | None, SimpleMotion], ...]:
@@ -152,14 +152,14 @@ class Spin(Pieces):
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         (pieces,), _ = super()._given()
-        return (pieces, str(self._omega), str(self._error)), {}
+        return (pieces, str(self.exact_omega), str(self.exact_error)), {}
 
     def __reduce__(self) -> tuple[object, ...]:
         return Spin.of_pieces, self._given()[0]
 
     def __repr__(self) -> str:
-        span = str(self._until[0]), str(self._until[-1])
-        return call_in_brief("Spin", str(self._omega), time=span, error=str(self._error))
+        span = str(self.exact_until[0]), str(self.exact_until[-1])
+        return call_in_brief("Spin", str(self.exact_omega), time=span, error=str(self.exact_error))
 
 
 def _rates(omega: Rational, error: Rational) -> tuple[QQ, QQ]:
@@ -227,7 +227,7 @@ class _Turns:
         series = self._series(b - a)
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + u[0] * v[0] + u[1] * v[1])
         last = whole - sum(series, QQ(0))
-        return Polynomial._of([*series, last])(Polynomial([-a / (b - a), 1 / (b - a)]))
+        return Polynomial.exact_from([*series, last])(Polynomial([-a / (b - a), 1 / (b - a)]))
 
     def _series(self, duration: QQ) -> list[QQ]:
         """Return the coefficients of the tangent, but for the last, of the part of a duration."""

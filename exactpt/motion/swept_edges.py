@@ -43,7 +43,7 @@ class SweptEdges:
     """
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
-        inner = {t for body in bodies for t in body._breakpoints if start < t < end}
+        inner = {t for body in bodies for t in body.exact_breakpoints if start < t < end}
         self._times = sorted({start, end, *inner})
         self.vertices = Vertices.of(bodies, start, end, plain=True)
         self.ids = self.vertices.ids()

@@ -44,7 +44,7 @@ def refuse_touching_rings(bodies: Iterable[Body], why: str) -> None:
         InputError: if rings of one of the bodies touch.
     """
     for body in bodies:
-        touches = body._ring_touches
+        touches = body.exact_ring_touches
         if touches:
             raise InputError(
                 f"body {shorten(body.name)}: its rings touch at {show_points(touches)} in its "
@@ -57,4 +57,4 @@ def _untileable(bodies: Iterable[Body]) -> Body | None:
     radii = getattr(bodies, "radii", None)  # of bodies in arrays, which have one ring each
     if radii is not None and not radii.any():
         return None
-    return next((body for body in bodies if body._radius or body._ring_touches), None)
+    return next((body for body in bodies if body.exact_radius or body.exact_ring_touches), None)

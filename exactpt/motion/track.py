@@ -86,9 +86,10 @@ class Track:
 
     def at(self, t: Rational) -> tuple[Fraction, Fraction]:
         """Return the exact position at a rational time."""
-        return place(self._at(rational(t)))
+        return place(self.exact_at(rational(t)))
 
-    def _at(self, t: QQ) -> tuple[QQ, QQ]:
+    def exact_at(self, t: QQ) -> tuple[QQ, QQ]:
+        """Return the place at a time as rationals of GMP."""
         if not t:
             w = self.w[0]
             return QQ(self.x[0] if self.x else 0, w), QQ(self.y[0] if self.y else 0, w)
@@ -116,8 +117,8 @@ def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable)
     ``turning`` identifies the motion of a vertex that turns.
     """
     if w is None:
-        return translated(x._coefficients, y._coefficients)
-    parts = (x._coefficients, y._coefficients, w._coefficients)
+        return translated(x.exact_coefficients, y.exact_coefficients)
+    parts = (x.exact_coefficients, y.exact_coefficients, w.exact_coefficients)
     denominator = _denominator(parts)
     a, b, c = (_times(denominator, part) for part in parts)
     return Track(a, b, c, turning)

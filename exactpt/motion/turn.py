@@ -40,9 +40,11 @@ class Turn(NamedTuple):
         """Return the trajectory of the vertex with this position in the rest frame."""
         u, v = position
         rigid = u.degree <= 0 and v.degree <= 0
-        x, y = self._resting(u._at(QQ(0)), v._at(QQ(0))) if rigid else self._deforming(u, v)
+        x, y = (
+            self._resting(u.exact_at(QQ(0)), v.exact_at(QQ(0))) if rigid else self._deforming(u, v)
+        )
         if self.w.degree <= 0:
-            scale = Polynomial([1 / self.w._at(QQ(0))])
+            scale = Polynomial([1 / self.w.exact_at(QQ(0))])
             return track(x * scale, y * scale, None, None)
         return track(x, y, self.w, self.identity if rigid else None)
 
@@ -54,14 +56,14 @@ class Turn(NamedTuple):
             dx, dy = c * dx - s * dy, s * dx + c * dy
         terms = list(zip(self.cosine, self.sine, self.x, self.y, strict=True))
         return (
-            Polynomial._of([cosine * dx - sine * dy + x for cosine, sine, x, _ in terms]),
-            Polynomial._of([sine * dx + cosine * dy + y for cosine, sine, _, y in terms]),
+            Polynomial.exact_from([cosine * dx - sine * dy + x for cosine, sine, x, _ in terms]),
+            Polynomial.exact_from([sine * dx + cosine * dy + y for cosine, sine, _, y in terms]),
         )
 
     def _deforming(self, u: Polynomial, v: Polynomial) -> tuple[Polynomial, Polynomial]:
         """Return the trajectory of a vertex that moves in the rest frame, times w."""
         cosine, sine, x, y = (
-            Polynomial._of(list(f)) for f in (self.cosine, self.sine, self.x, self.y)
+            Polynomial.exact_from(list(f)) for f in (self.cosine, self.sine, self.x, self.y)
         )
         dx, dy = u - Polynomial([self.pivot[0]]), v - Polynomial([self.pivot[1]])
         if self.orientation[0] != 1:
@@ -79,7 +81,7 @@ def turn_of(
     """Return the turn with this tangent of half the angle, about a pivot that takes a path."""
     h, (x, y) = half_turn, path
     w = ONE + h * h
-    parts = [f._coefficients for f in (ONE - h * h, h + h, w * x, w * y)]
+    parts = [f.exact_coefficients for f in (ONE - h * h, h + h, w * x, w * y)]
     size = max(map(len, parts))
     cosine, sine, path_x, path_y = ((*f, *[QQ(0)] * (size - len(f))) for f in parts)
     return Turn(w, cosine, sine, path_x, path_y, pivot, orientation, Turning(h, x, y))

@@ -52,14 +52,14 @@ def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
         return False
     if turns[0].half_turn.degree > 0 or turns[-1].half_turn.degree > 0:
         return False
-    if len({(turn._pivot, turn.x, turn.y) for turn in turns}) > 1:
+    if len({(turn.exact_pivot, turn.x, turn.y) for turn in turns}) > 1:
         return False
     groups: dict[tuple[QQ, ...], list[_Start]] = {}
-    for (a, b), turn in zip(pairwise(pieces._until), turns[1:-1], strict=True):
-        h = turn.half_turn(Polynomial([a, b - a]))._coefficients or (QQ(0),)
+    for (a, b), turn in zip(pairwise(pieces.exact_until), turns[1:-1], strict=True):
+        h = turn.half_turn(Polynomial([a, b - a])).exact_coefficients or (QQ(0),)
         if abs(h[0]) > 1:
             return False
-        start = _Start(a, turn._orientation, h[0], h[-1])
+        start = _Start(a, turn.exact_orientation, h[0], h[-1])
         groups.setdefault((b - a, *h[:-1]), []).append(start)
     return all(_are_within(group, starts, omega, error) for group, starts in groups.items())
 
@@ -106,7 +106,7 @@ def _range_of(extremes: Sequence[Polynomial], angle: QQ, samples: int, bits: int
     lows, highs = [], []
     for i in range(samples + 1):
         s = QQ(i, samples)
-        least, most = extremes[0]._at(s), extremes[-1]._at(s)
+        least, most = extremes[0].exact_at(s), extremes[-1].exact_at(s)
         if least < -1 or most > 1:
             return None
         lows.append(2 * atan_bounds(least, bits)[0] - angle * s)
@@ -130,7 +130,7 @@ def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
 
 
 def _bound_on_unit(f: Polynomial) -> QQ:
-    c = f._coefficients
+    c = f.exact_coefficients
     n = len(c) - 1
     largest = QQ(0)
     for j in range(n + 1):

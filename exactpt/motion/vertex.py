@@ -51,7 +51,7 @@ class Stage:
         """The piece of motion."""
         piece = self._made
         if piece is None:
-            piece = self._made = self._bodies[self._number]._piece_after(self._since)
+            piece = self._made = self._bodies[self._number].exact_piece_after(self._since)
         return piece
 
 
@@ -161,7 +161,7 @@ class MovingBody:
 
     def enter(self, t: QQ) -> Piece:
         """Enter the piece of motion just after a rational time."""
-        piece = self.body._piece_after(t)
+        piece = self.body.exact_piece_after(t)
         self.since, self._float_tracks = t, None
         self._stage = Stage(self._bodies, self._number, t, piece)
         self.until = piece.until

@@ -124,7 +124,7 @@ class Vertices:
             [(VertexId(next(ids)), index) for index in ring_indices(body, start, plain=plain)]
             for body in bodies
         ]
-        corners = [p for body in bodies for p in body._piece_after(start).corners(start)]
+        corners = [p for body in bodies for p in body.exact_piece_after(start).corners(start)]
         normalization = normalization_for(corners or [(QQ(0), QQ(0))], start, end)
         self = cls(bodies, rings, [start] * len(bodies), normalization, end, plain=plain)
         for i, moving in enumerate(self.bodies):
@@ -249,12 +249,12 @@ class Vertices:
         """Return True if a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or self._deforms_in_pieces(
-            body, [t for t in body._breakpoints if t > start]
+            body, [t for t in body.exact_breakpoints if t > start]
         )
 
     def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
         """Return True if a body deforms in one of the pieces that begin at these times."""
-        return any(_deforms(self.enclosures.of_piece(body._piece_after(t))) for t in starts)
+        return any(_deforms(self.enclosures.of_piece(body.exact_piece_after(t))) for t in starts)
 
     def begins_inside(self, i: int, body: Body, t: QQ) -> bool:
         """Return True if a motion requires a tiling of an interior that is not tiled yet.
@@ -264,7 +264,7 @@ class Vertices:
             body: the body with its new motion.
             t: the time from which it holds.
         """
-        starts = [t, *(later for later in body._breakpoints if later > t)]
+        starts = [t, *(later for later in body.exact_breakpoints if later > t)]
         is_tiled = self.bodies[i].is_tiled
         return body.has_rings and not is_tiled and self._deforms_in_pieces(body, starts)
 

@@ -125,8 +125,8 @@ def first_within(
         if not selection.is_all:
             raise InputError("between and ignoring are not supported for two named bodies")
         first, second = two_bodies(scene, a, b)
-        return time_within_of_two(first, second, scene._start, scene._end, squared)
-    largest_radius = max((body._radius for body in scene.bodies), default=QQ(0))
+        return time_within_of_two(first, second, scene.exact_start, scene.exact_end, squared)
+    largest_radius = max((body.exact_radius for body in scene.bodies), default=QQ(0))
     square_between_cores(squared, largest_radius)  # refuses a square without a rational root
     found: Near | None = None
     if len(scene.bodies) > 1:
@@ -178,8 +178,8 @@ def _selected(scene: Scene, selection: Selection, squared: QQ) -> Near | None:
     best: Earliest[tuple[int, int]] = Earliest()
     for i, j in map(sorted, selection.of(candidate_pairs(scene, root_above(squared)))):
         first, second = scene.bodies[i], scene.bodies[j]
-        until = best.until(scene._end)
-        time = time_within_of_two(first, second, scene._start, until, squared)
+        until = best.until(scene.exact_end)
+        time = time_within_of_two(first, second, scene.exact_start, until, squared)
         if time is not None:
             best.add(time, [(i, j)])
     return None if best.number is None else (best.number, best.found)
@@ -195,7 +195,7 @@ def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> Alg
         end: the last time; it may be the first one.
         squared: the square of the distance.
     """
-    squared_of_cores = square_between_cores(squared, a._radius + b._radius)
+    squared_of_cores = square_between_cores(squared, a.exact_radius + b.exact_radius)
     if start == end:
         is_within = squared_distance(a, b, start) <= squared_of_cores
         return AlgebraicNumber(start) if is_within else None
@@ -206,7 +206,7 @@ def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> Alg
 def _first(scene: Scene, squared: QQ) -> Near | None:
     """Return the first approach of any two bodies of a scene that has at least two."""
     most = root_above(squared)
-    radii = [body._radius for body in scene.bodies]
+    radii = [body.exact_radius for body in scene.bodies]
 
     def limit(i: int, j: int) -> QQ:
         return square_between_cores(squared, radii[i] + radii[j])
@@ -223,7 +223,7 @@ def _first(scene: Scene, squared: QQ) -> Near | None:
         near = pieces.near_at_start(distance)
     at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
     if at_start:
-        return AlgebraicNumber(scene._start), at_start
+        return AlgebraicNumber(scene.exact_start), at_start
     if pieces is None:
         found = ApproachSearch(scene, limit, reach).run()
     else:

@@ -60,7 +60,7 @@ class ApproachSearch:
     ) -> None:
         self._squared = squared
         self._apart = apart
-        self._swept = swept or SweptEdges(scene.bodies, scene._start, scene._end)
+        self._swept = swept or SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
         normalization = self._swept.vertices.normalization
         # Units of both axes, relative to the smaller one: powers of two.
         unit = min(normalization.scale)

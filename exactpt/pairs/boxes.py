@@ -180,7 +180,7 @@ def _numbers(s: Straight, margin: float) -> tuple[float, ...]:
 
 def radius_above(body: Body) -> float:
     """Return a double that is at least the radius of a body; 0 only if that is 0."""
-    return enclosing_floats(body._radius)[1] if body._radius else 0.0
+    return enclosing_floats(body.exact_radius)[1] if body.exact_radius else 0.0
 
 
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:

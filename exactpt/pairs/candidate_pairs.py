@@ -32,8 +32,8 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     A superset of those whose distance in the maximum norm is ever at most the reach, in order,
     and of the times at which it is. (The radii of rounded bodies are added to it.)
     """
-    bodies, start, end = scene.bodies, scene._start, scene._end
-    if len(bodies) <= FEW and not any(body._breakpoints for body in bodies):
+    bodies, start, end = scene.bodies, scene.exact_start, scene.exact_end
+    if len(bodies) <= FEW and not any(body.exact_breakpoints for body in bodies):
         return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
     found: dict[tuple[int, int], Spans] = {}
     pieces = linear_pieces(scene)
@@ -51,9 +51,9 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
 
 def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
     """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
-    swept = SweptEdges(scene.bodies, scene._start, scene._end)
+    swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
     units = [power_of_two(-scale) for scale in swept.vertices.normalization.scale]
-    halves = [reach / 2 + body._radius for body in scene.bodies]
+    halves = [reach / 2 + body.exact_radius for body in scene.bodies]
     by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
 
     def near(now: QQ, later: QQ) -> Near:
@@ -61,5 +61,5 @@ def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
         i, j = zip(*overlapping_pairs(grown(boxes, by) if by.any() else boxes), strict=True)
         return np.concatenate(i), np.concatenate(j)
 
-    longest, many = (scene._end - scene._start) / SLABS, 8 * len(scene.bodies) + 64
+    longest, many = (scene.exact_end - scene.exact_start) / SLABS, 8 * len(scene.bodies) + 64
     return swept.slabs(near, longest, many)

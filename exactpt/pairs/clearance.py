@@ -225,12 +225,12 @@ def clearance_of_two(scene: Scene, a: str, b: str) -> Clearance:
         InputError: if a body does not exist, or both are the same.
     """
     first, second = two_bodies(scene, a, b)
-    now = AlgebraicNumber(scene._start)
+    now = AlgebraicNumber(scene.exact_start)
     radius = first.radius + second.radius
     meeting = (int(radius.numerator**2),) if radius else (), (int(radius.denominator**2),)
     pieces: list[ClearancePiece] = []
-    for start, end in [*intervals(first, second, scene._start, scene._end), (None, None)]:
-        stop = AlgebraicNumber(scene._end) if start is None else start
+    for start, end in [*intervals(first, second, scene.exact_start, scene.exact_end), (None, None)]:
+        stop = AlgebraicNumber(scene.exact_end) if start is None else start
         pieces += _apart(first, second, now, stop)
         if start is not None and end is not None:
             pieces.append(ClearancePiece(start, end, None, *meeting))
@@ -264,7 +264,7 @@ def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> li
     """Return the pieces of the distance between two times; between them the bodies are disjoint."""
     pieces: list[ClearancePiece] = []
     now = begin
-    for piece_pair in piece_pairs(a, b, begin._low, end._high):
+    for piece_pair in piece_pairs(a, b, begin.exact_low, end.exact_high):
         until = min(AlgebraicNumber(piece_pair.end), end)
         if now < until:
             pieces += _in_piece_pair(NearFeatures(a, b, piece_pair), piece_pair, now, until)
@@ -284,7 +284,7 @@ def _in_piece_pair(
         after = max(now, AlgebraicNumber(low))
         while True:
             check_budget()
-            stop = _first_change(nearest, pairs, after, until, min(high, until._high))
+            stop = _first_change(nearest, pairs, after, until, min(high, until.exact_high))
             if stop is None:
                 break
             yield _piece(now, stop, nearest)
@@ -392,7 +392,7 @@ def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:
         return
     times = [piece.start]
     if piece.start < piece.end:
-        roots = roots_after(f, piece.start, piece.end._high)
+        roots = roots_after(f, piece.start, piece.end.exact_high)
         times += [root.time for root in roots if root.time < piece.end]
         times.append(piece.end)
     for time, following in zip_longest(times, times[1:]):
@@ -408,7 +408,7 @@ def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
     n, d = _poly(piece.numerator), _poly(piece.denominator)
     slope = subtract(multiply(derivative(n), d), multiply(n, derivative(d)))
     if slope and piece.start < piece.end:
-        for root in roots_after(slope, piece.start, piece.end._high):
+        for root in roots_after(slope, piece.start, piece.end.exact_high):
             if root.time < piece.end:
                 yield root.time
 

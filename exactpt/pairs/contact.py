@@ -43,11 +43,11 @@ class Contact:
             point: they overlap or touch. Empty for other contacts. The key of JSON is "overlaps".
     """
 
-    __slots__ = ("_pairs", "_time", "initial_pairs", "kind")
+    __slots__ = ("_pairs", "exact_time", "initial_pairs", "kind")
     __match_args__: ClassVar = ("time", "kind", "pairs", "initial_pairs")
     kind: str
     initial_pairs: tuple[tuple[str, str], ...]
-    _time: AlgebraicNumber
+    exact_time: AlgebraicNumber  # in the form in which the search found it; `time` may change it
     _pairs: tuple[ContactPoint, ...] | Found
 
     def __init__(
@@ -58,7 +58,7 @@ class Contact:
         initial_pairs: tuple[tuple[str, str], ...] = (),
     ) -> None:
         keep = object.__setattr__
-        keep(self, "_time", time)
+        keep(self, "exact_time", time)
         keep(self, "kind", kind)
         keep(self, "_pairs", pairs)
         keep(self, "initial_pairs", initial_pairs)
@@ -69,9 +69,9 @@ class Contact:
     @property
     def time(self) -> AlgebraicNumber:
         """The exact time."""
-        if not self._time.is_rational:
+        if not self.exact_time.is_rational:
             self._complete()  # it changes the form of an irrational time
-        return self._time
+        return self.exact_time
 
     @property
     def pairs(self) -> tuple[ContactPoint, ...]:
@@ -81,12 +81,12 @@ class Contact:
     def _complete(self) -> tuple[ContactPoint, ...]:
         pairs = self._pairs
         if isinstance(pairs, Found):
-            time, pairs = details(pairs.scene, self._time, pairs.touches)
-            object.__setattr__(self, "_time", time)
+            time, pairs = details(pairs.scene, self.exact_time, pairs.touches)
+            object.__setattr__(self, "exact_time", time)
             object.__setattr__(self, "_pairs", pairs)
         return pairs
 
-    def _touches(self, numbers: Mapping[str, int]) -> list[Incidence]:
+    def exact_incidences(self, numbers: Mapping[str, int]) -> list[Incidence]:
         """Return the incidences, bodies numbered by ``numbers``; points are not computed."""
         found = self._pairs
         if isinstance(found, Found):
@@ -105,12 +105,12 @@ class Contact:
             return NotImplemented
         return (
             (self.kind, self.initial_pairs) == (other.kind, other.initial_pairs)
-            and self._time == other._time
+            and self.exact_time == other.exact_time
             and self.pairs == other.pairs
         )
 
     def __hash__(self) -> int:
-        return hash((self._time, self.kind))
+        return hash((self.exact_time, self.kind))
 
     def __reduce__(self) -> tuple[object, ...]:
         return Contact, (self.time, self.kind, self.pairs, self.initial_pairs)
@@ -178,7 +178,7 @@ def contact_of(
 
 
 def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Incidence]) -> str:
-    if time.compare_rational(scene._start) == 0:
+    if time.compare_rational(scene.exact_start) == 0:
         return "initial"
     of_two = [touch for touch in touches if touch.body != touch.other]
     if not of_two:

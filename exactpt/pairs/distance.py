@@ -151,12 +151,12 @@ def _rational_time(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:
         at = at.simplified()
         if not at.is_rational:
             raise InputError("an irrational time: use .low, .high or float()")
-        t = at._low
+        t = at.exact_low
     else:
         t = rational(at)
-    if not scene._start <= t <= scene._end:
+    if not scene.exact_start <= t <= scene.exact_end:
         raise InputError(
-            f"the time {show(t)} is outside of [{show(scene._start)}, {show(scene._end)}]"
+            f"the time {show(t)} is outside of [{show(scene.exact_start)}, {show(scene.exact_end)}]"
         )
     return t
 
@@ -167,7 +167,7 @@ def _in_order(pair: tuple[Feature, Feature]) -> list[int]:
 
 def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
     """Yield the squared distances of vertices from vertices, and from the interiors of edges."""
-    p, q = a._at(t), b._at(t)
+    p, q = a.exact_at(t), b.exact_at(t)
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         yield _squared(u, v), (Feature(i, None), Feature(j, None))
     for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):

@@ -32,7 +32,7 @@ def bodies_near_others(scene: Scene) -> list[int]:
     corners: list[list[Point]] = []
     for body in scene.bodies:
         check_budget()
-        found = _corners(body, scene._start, scene._end)
+        found = _corners(body, scene.exact_start, scene.exact_end)
         if found is None:
             return everything
         corners.append(found)
@@ -45,19 +45,19 @@ def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
     motion = body.motion
     if not body.vertices or not are_constant(body.vertices):
         return None
-    places = [(x._at(start), y._at(start)) for x, y in body.vertices]
+    places = [(x.exact_at(start), y.exact_at(start)) for x, y in body.vertices]
     if isinstance(motion, Spin):
         path = motion.motions[0]
         if not isinstance(path, Rigid):
             return None
-        px, py = path._pivot
+        px, py = path.exact_pivot
         reach = nearest_square_root(max((x - px) ** 2 + (y - py) ** 2 for x, y in places))
         reach = math.nextafter(reach, math.inf)  # the root is at most half a unit above the nearest
         if not math.isfinite(reach):
             return None
-        places, margin = [(px, py)], QQ(reach) + body._radius
+        places, margin = [(px, py)], QQ(reach) + body.exact_radius
     elif isinstance(motion, Translation):
-        path, margin = motion, body._radius
+        path, margin = motion, body.exact_radius
     else:
         return None
     if max(path.x.degree, path.y.degree) > 1:
@@ -65,7 +65,7 @@ def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
     left, right = min(x for x, _ in places) - margin, max(x for x, _ in places) + margin
     low, high = min(y for _, y in places) - margin, max(y for _, y in places) + margin
     return [
-        (x + path.x._at(t), y + path.y._at(t))
+        (x + path.x.exact_at(t), y + path.y.exact_at(t))
         for t in (start, end)
         for x, y in ((left, low), (right, high))
     ]

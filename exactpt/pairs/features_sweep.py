@@ -85,15 +85,19 @@ class PairsSearch:
             near = bodies_near_others(scene)
             if len(near) < len(scene.bodies):
                 group = group[near]
-                scene = scene_of([scene.bodies[i] for i in near], scene._start, scene._end)
+                scene = scene_of(
+                    [scene.bodies[i] for i in near], scene.exact_start, scene.exact_end
+                )
         self._scene = scene
         self._group = group
         self._exact_only = exact_only
         self._deadline = deadline_in(max_seconds)
         self._counters = Counters()
-        has_radius = [body._radius > 0 for body in scene.bodies]
+        has_radius = [body.exact_radius > 0 for body in scene.bodies]
         self._has_radius: Flags = np.array(has_radius, dtype=np.bool_)
-        alone = [body.name in ignoring_self or bool(body._ring_touches) for body in scene.bodies]
+        alone = [
+            body.name in ignoring_self or bool(body.exact_ring_touches) for body in scene.bodies
+        ]
         self._ignores_self: Flags = np.array(alone, dtype=np.bool_)
         self.certificates = 0
         self._passed: QQ | None = None
@@ -146,20 +150,20 @@ class PairsSearch:
         initial_pairs = [(i, j) for i, j in initial_pairs if not self._ignores(i, j)]
         if initial_pairs:
             seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
-            return contact_of(scene, AlgebraicNumber(scene._start), seen, initial_pairs)
+            return contact_of(scene, AlgebraicNumber(scene.exact_start), seen, initial_pairs)
         return self._run() if scene.bodies else None
 
     @cached_property
     def _swept(self) -> SweptEdges:
         """The vertices and edges with their boxes, in the first pieces of motion at first."""
         scene = self._scene
-        swept = SweptEdges(scene.bodies, scene._start, scene._end)
+        swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
         self._counters = swept.vertices.counters
         return swept
 
     def _run(self) -> Contact | None:
         """Search slab by slab."""
-        self._passed = self._scene._start
+        self._passed = self._scene.exact_start
         approaches = self._approaches
         for now, later, near in self._swept.slabs(self._near):
             if self._deadline is not None and clock.monotonic() > self._deadline:
@@ -183,7 +187,7 @@ class PairsSearch:
         scene = self._scene
         if not scene.has_radius:
             return None
-        radii = [body._radius for body in scene.bodies]
+        radii = [body.exact_radius for body in scene.bodies]
 
         def squared(i: int, j: int) -> QQ:
             return (radii[i] + radii[j]) ** 2

@@ -76,8 +76,8 @@ def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Tr
 
 def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
     """Return the motion of a body just before a time; at the start, just after it."""
-    since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
-    return body._piece_after(since)
+    since = max((b for b in body.exact_breakpoints if time.compare_rational(b) > 0), default=start)
+    return body.exact_piece_after(since)
 
 
 def details(
@@ -85,13 +85,13 @@ def details(
 ) -> tuple[AlgebraicNumber, tuple[ContactPoint, ...]]:
     """Return the time in the form that does not depend on the search, and the incidences."""
     involved = {i for touch in touches for i in (touch.body, touch.other)}
-    pieces = {i: _piece_before(scene.bodies[i], time, scene._start) for i in involved}
+    pieces = {i: _piece_before(scene.bodies[i], time, scene.exact_start) for i in involved}
     number = _as_root(scene, time, pieces, touches)
     sides: dict[tuple[int, range], int] = {}
     pairs = []
     for touch in touches:
         ring = _touched_ring(scene, touch)
-        if ring is None or any(scene.bodies[i]._radius for i in (touch.body, touch.other)):
+        if ring is None or any(scene.bodies[i].exact_radius for i in (touch.body, touch.other)):
             outward = 0
         elif _may_have_crossed_itself(scene, touch):
             from exactpt.pairs.exterior import exterior_side
@@ -114,11 +114,11 @@ def _as_root(
         return time
     touch = touches[0]
     v, other = pieces[touch.body].track(touch.vertex), pieces[touch.other]
-    reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
+    reach = scene.bodies[touch.body].exact_radius + scene.bodies[touch.other].exact_radius
     from exactpt.pairs.features import FeaturePair
 
     f = FeaturePair(touch, v, _ends(scene, touch, other)).at_distance(reach * reach)
-    return time._as_root_of(f) if f else time
+    return time.exact_as_root_of(f) if f else time
 
 
 def _ends(scene: Scene, touch: Incidence, other: Piece) -> tuple[Track] | tuple[Track, Track]:
@@ -139,7 +139,7 @@ def _pair(
     v, ends = pieces[touch.body].track(touch.vertex), _ends(scene, touch, pieces[touch.other])
     normal = None
     x, y, w = v.x, v.y, v.w
-    radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
+    radii = scene.bodies[touch.body].exact_radius, scene.bodies[touch.other].exact_radius
     if any(radii):
         from exactpt.pairs.radius_touch import touch_point
 
@@ -182,7 +182,7 @@ def _outward(scene: Scene, number: int, ring: range) -> int:
     """
     body = scene.bodies[number]
     is_outline = ring in [outline for outline, *_ in body.parts]
-    turns_left = body._piece_after(scene._start).turns_left(ring, scene._start)
+    turns_left = body.exact_piece_after(scene.exact_start).turns_left(ring, scene.exact_start)
     return 1 if turns_left == is_outline else -1
 
 

@@ -80,7 +80,7 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
     """
     two_bodies(scene, a, b)
     bodies = [body for body in scene.bodies if body.name in (a, b)]
-    near = candidate_pairs(scene_of(bodies, scene._start, scene._end), QQ(0))
+    near = candidate_pairs(scene_of(bodies, scene.exact_start, scene.exact_end), QQ(0))
     return _of_two(scene, bodies[0], bodies[1], near.get((0, 1), []))
 
 
@@ -88,7 +88,7 @@ def _of_two(scene: Scene, a: Body, b: Body, near: Spans) -> list[ContactInterval
     """Return the intervals of two bodies, given in the order of the scene."""
     return [
         ContactInterval(a.name, b.name, start.simplified(), end.simplified())
-        for start, end in intervals(a, b, scene._start, scene._end, near)
+        for start, end in intervals(a, b, scene.exact_start, scene.exact_end, near)
     ]
 
 
@@ -190,7 +190,7 @@ def _times(a: Body, b: Body, piece_pair: PiecePair, *, corners: bool) -> Iterato
     a vertex, which is then at that distance.) If the sum is 0 and ``corners`` is false, those of
     two vertices where vertices move along edges alone.
     """
-    squared = (a._radius + b._radius) ** 2
+    squared = (a.exact_radius + b.exact_radius) ** 2
     begin, end = AlgebraicNumber(piece_pair.begin), AlgebraicNumber(piece_pair.end)
     for pair in feature_pairs(
         a, b, piece_pair.first, piece_pair.second, _near_pairs(a, b, piece_pair).tolist()
@@ -213,8 +213,8 @@ def _near_pairs(a: Body, b: Body, piece_pair: PiecePair) -> Indices:
     n, m, of_a, of_b = a.size, b.size, len(a.edges), len(b.edges)
     order = np.arange(n * m + of_a * m + n * of_b)
     if n * m > FEW:
-        order = NearFeatures(a, b, piece_pair).within(a._radius + b._radius)
-    if a._radius or b._radius:
+        order = NearFeatures(a, b, piece_pair).within(a.exact_radius + b.exact_radius)
+    if a.exact_radius or b.exact_radius:
         return order
     corners, of_second = order < n * m, order >= (n + of_a) * m
     edges = order[~corners & ~of_second]

@@ -67,7 +67,7 @@ class NearFeatures:
         self._two = a, b
         self._piece_pair = piece_pair
         p, q = piece_pair.first, piece_pair.second
-        places = [track._at(piece_pair.begin) for track in (*p, *q)]
+        places = [track.exact_at(piece_pair.begin) for track in (*p, *q)]
         normalization = normalization_for(places, piece_pair.begin, piece_pair.end)
         scale = max(normalization.scale)  # one for both axes: distances are compared
         self._normalization = Normalization(

@@ -42,7 +42,7 @@ class SlabBoxes:
     """
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
-        points = [p for body in bodies for p in body._piece_after(start).corners(start)]
+        points = [p for body in bodies for p in body.exact_piece_after(start).corners(start)]
         self._normalization: Normalization = normalization_for(
             points or [(QQ(0), QQ(0))], start, end
         )
@@ -58,11 +58,11 @@ class SlabBoxes:
         boxes = np.empty((SLABS, 4))
         boxes[:, ::2], boxes[:, 1::2] = np.inf, -np.inf
         start, end = self._cuts[0], self._cuts[-1]
-        inner = [t for t in body._breakpoints if start < t < end]
+        inner = [t for t in body.exact_breakpoints if start < t < end]
         for since, until in pairwise([start, *inner, end]):
             low, high = self._normalization.time(since)[0], self._normalization.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
-            float_tracks = self._enclosures.of_piece(body._piece_after(since))
+            float_tracks = self._enclosures.of_piece(body.exact_piece_after(since))
             swept = SweptBoxes(float_tracks, self._enclosures.errors, drifting=False)
             lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
             places = swept.during(lows, highs)
@@ -126,5 +126,5 @@ class Obstacles:
         if not scene.bodies:
             return iter(())
         if self._slab_boxes is None:
-            self._slab_boxes = SlabBoxes(scene.bodies, scene._start, scene._end)
+            self._slab_boxes = SlabBoxes(scene.bodies, scene.exact_start, scene.exact_end)
         return self._slab_boxes.active_intervals(body)

@@ -45,14 +45,14 @@ class _Placed(NamedTuple):
 
 
 def _placed(body: Body, t: QQ) -> _Placed:
-    points = body._at(t)
+    points = body.exact_at(t)
     edges = [(points[i], points[j]) for i, j in segments_of(body)]
-    return _Placed(body, points, edges, set(points) if body._ring_touches else ())
+    return _Placed(body, points, edges, set(points) if body.exact_ring_touches else ())
 
 
 def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two bodies, rounded or not, have a point in common."""
-    reach = a._radius + b._radius
+    reach = a.exact_radius + b.exact_radius
     return squared_distance(a, b, t) <= reach * reach if reach else cores_intersect(a, b, t)
 
 
@@ -74,7 +74,7 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     the chain does not divide its neighbourhood, and leaves C at one end at most. Else C divides
     both, and they cross if one leaves C to different sides of the other.
     """
-    reach = a._radius + b._radius
+    reach = a.exact_radius + b.exact_radius
     if reach:
         return squared_distance(a, b, t) < reach * reach
     first, second = _placed(a, t), _placed(b, t)

@@ -43,10 +43,12 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
 
 def piece_pairs(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[PiecePair]:
     """Yield the pieces of two bodies, in the order of time: they cover the time span."""
-    times = {t for t in (*a._breakpoints, *b._breakpoints) if start < t < end}
+    times = {t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if start < t < end}
     begin = start
     for until in (*sorted(times), end):
-        yield PiecePair(begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks)
+        yield PiecePair(
+            begin, until, a.exact_piece_after(begin).tracks, b.exact_piece_after(begin).tracks
+        )
         begin = until
 
 
@@ -57,7 +59,7 @@ def segments_of(body: Body) -> list[tuple[int, int]]:
 
 def cores_intersect(a: Body, b: Body, t: QQ) -> bool:
     """Return True if the cores of two bodies have a point in common at a rational time."""
-    p, q = a._at(t), b._at(t)
+    p, q = a.exact_at(t), b.exact_at(t)
     ends = [(p[i], p[j]) for i, j in segments_of(a)]
     count = len(ends)
     ends += [(q[i], q[j]) for i, j in segments_of(b)]

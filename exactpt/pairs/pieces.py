@@ -64,7 +64,7 @@ Distance: TypeAlias = "Callable[[MotionPiece, MotionPiece], ContactDistance | No
 
 def contact_distance(a: MotionPiece, b: MotionPiece) -> ContactDistance | None:
     """Return the distance at which the cores of two bodies touch; None if it is 0."""
-    r, s = a.straight.body._radius, b.straight.body._radius
+    r, s = a.straight.body.exact_radius, b.straight.body.exact_radius
     return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
 
 
@@ -161,7 +161,7 @@ def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
         pieces = straight_pieces(body, origin=origin)
         if pieces is None:
             return None
-        found += pieces_during(i, pieces, scene._start, scene._end)
+        found += pieces_during(i, pieces, scene.exact_start, scene.exact_end)
     return found
 
 

@@ -50,7 +50,7 @@ class Planner:
         self._obstacles = Obstacles(self._scene)
 
     def __repr__(self) -> str:
-        count, span = len(self._scene.bodies), (self._scene._start, self._scene._end)
+        count, span = len(self._scene.bodies), (self._scene.exact_start, self._scene.exact_end)
         start, end = map(show, span)
         return f"<Planner among {counted(count, 'obstacle')}, t in [{start}, {end}]>"
 
@@ -96,13 +96,15 @@ class Planner:
             pieces = straight_pieces(body, outline, self._obstacles.origin)
             if pieces is not None:
                 number = len(scene.bodies)
-                moving = list(pieces_during(number, pieces, scene._start, scene._end))
+                moving = list(pieces_during(number, pieces, scene.exact_start, scene.exact_end))
                 together, near = [*prepared, *moving], self._obstacles.near(moving)
-                planned = scene.going_on((*scene.bodies, body), scene._start)
-                few = ScenePieces(together, scene._start, scene._end, near)
+                planned = scene.going_on((*scene.bodies, body), scene.exact_start)
+                few = ScenePieces(together, scene.exact_start, scene.exact_end, near)
                 return LinearSearch(planned, few).run_to_contact()
-        if scene.has_radius or body._radius or not is_rigid(body):  # boxes are those of cores
-            whole = ActiveInterval(scene._start, scene._end, list(range(len(scene.bodies))))
+        if scene.has_radius or body.exact_radius or not is_rigid(body):  # boxes are those of cores
+            whole = ActiveInterval(
+                scene.exact_start, scene.exact_end, list(range(len(scene.bodies)))
+            )
             return self._first_during(body, [whole])
         return self._first_during(body, self._obstacles.active_intervals(body))
 

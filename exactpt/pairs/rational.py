@@ -90,7 +90,7 @@ class Earliest(Generic[T]):
     def until(self, end: QQ) -> QQ:
         """Return a time, at most the given one, after which none can be the earliest."""
         if isinstance(self.time, AlgebraicNumber):
-            return min(end, self.time._high)
+            return min(end, self.time.exact_high)
         return end if self.time is None else min(end, self.time)
 
     @property

@@ -32,7 +32,7 @@ class _OnDemand(dict[int, MotionPiece]):
 
     def __missing__(self, k: int) -> MotionPiece:
         ((straight, _),) = straight_pieces(self._scene.bodies[k]) or []
-        piece = self[k] = MotionPiece(k, straight, self._scene._start, self._scene._end)
+        piece = self[k] = MotionPiece(k, straight, self._scene.exact_start, self._scene.exact_end)
         return piece
 
 
@@ -41,7 +41,7 @@ def pieces_on_demand(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
 
     Their boxes are grown by a margin.
     """
-    bodies, start, end = scene.bodies, scene._start, scene._end
+    bodies, start, end = scene.bodies, scene.exact_start, scene.exact_end
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is None:
         return None
@@ -88,10 +88,10 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
     """Return the numbers of a body in straight motion; None unless doubles are exact."""
-    doubles = body._shape.doubles
+    doubles = body.exact_shape.doubles
     if doubles is None or type(body.motion) is not Translation or body.size > MAX_VERTICES:
         return None
-    x, y = body.motion.x._doubles, body.motion.y._doubles
+    x, y = body.motion.x.exact_doubles, body.motion.y.exact_doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:
         return None
     (low_x, high_x), (low_y, high_y) = ((min(f), max(f)) for f in doubles)

@@ -101,7 +101,7 @@ class LinearSearch:
         """
         if not self._is_apart:
             return None
-        start, low = self._scene._start, self._search.low
+        start, low = self._scene.exact_start, self._search.low
         before = math.nextafter(low, -math.inf)
         return fraction(max(start, QQ(before)) if math.isfinite(before) else start)
 
@@ -122,7 +122,7 @@ class LinearSearch:
 
             touches, initial_pairs = initial_touches(scene, near)
             if initial_pairs:
-                return contact_of(scene, AlgebraicNumber(scene._start), touches, initial_pairs)
+                return contact_of(scene, AlgebraicNumber(scene.exact_start), touches, initial_pairs)
         self._is_apart = True
         found = self._search.run(self._pieces.near(self._counts))
         return None if found is None else contact_of(scene, found.number, found.touches)
@@ -159,7 +159,11 @@ def scene_pieces_if_linear(scene: Scene, margin: float = 0.0) -> ScenePieces | N
         if pieces is not None:
             return pieces
     linear = linear_pieces(scene)
-    return None if linear is None else ScenePieces.of(linear, scene._start, scene._end, margin)
+    return (
+        None
+        if linear is None
+        else ScenePieces.of(linear, scene.exact_start, scene.exact_end, margin)
+    )
 
 
 def first_among_pieces(
@@ -276,7 +280,7 @@ def first_at_distance(
     from exactpt.pairs.features import FeaturePair
     from exactpt.pairs.piece_pairs import segments_of
 
-    pieces = [body._piece_after(start) for body in bodies]
+    pieces = [body.exact_piece_after(start) for body in bodies]
     begin = AlgebraicNumber(start)
 
     def first(touch: Incidence, until: QQ) -> tuple[AlgebraicNumber, Incidence] | None:

@@ -102,7 +102,7 @@ class SelectedSearch:
                 raise
 
     def _first_contact(self) -> Contact | None:
-        scene, start = self._scene, AlgebraicNumber(self._scene._start)
+        scene, start = self._scene, AlgebraicNumber(self._scene.exact_start)
         pairs = self._candidates()
         touches, initial_pairs = initial_touches(scene, pairs)
         if initial_pairs and not self._after_start:
@@ -114,7 +114,7 @@ class SelectedSearch:
         for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):
             check_budget()
             self.pairs += 1
-            until = best.until(scene._end)
+            until = best.until(scene.exact_end)
             meeting = self._renewed(*pair) if pair in touching else self._first(pair, until)
             if meeting is not None:
                 best.add(meeting[0], [(pair, meeting[1])])
@@ -150,13 +150,13 @@ class SelectedSearch:
         """
         scene = self._scene
         a, b = scene.bodies[i], scene.bodies[j]
-        if _move_together(a, b, scene._start, scene._end):
+        if _move_together(a, b, scene.exact_start, scene.exact_end):
             return None
-        time = new_contact_time(a, b, scene._start, scene._end)
+        time = new_contact_time(a, b, scene.exact_start, scene.exact_end)
         if time is None:
             return None
-        part = scene_of((a, b), scene._start, scene._end)
-        at_start = time.compare_rational(part._start) == 0
+        part = scene_of((a, b), scene.exact_start, scene.exact_end)
+        at_start = time.compare_rational(part.exact_start) == 0
         touches = (
             initial_touches(part)[0] if at_start else touches_at_distance(part, [(0, 1)], time)
         )
@@ -165,26 +165,26 @@ class SelectedSearch:
     def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
         """Return the first contact of a pair disjoint at the start, or of a body with itself."""
         scene = self._scene
-        if until <= scene._start:
+        if until <= scene.exact_start:
             return None
         if self._pieces is not None:
             pieces = [piece for i in pair for piece in self._pieces[i]]
-            met = first_among_pieces(ScenePieces.of(pieces, scene._start, until))
+            met = first_among_pieces(ScenePieces.of(pieces, scene.exact_start, until))
             return None if met is None else (met.number, met.touches)
-        part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
+        part = scene_of([scene.bodies[i] for i in pair], scene.exact_start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []
         search = PairsSearch(part, exact_only=self._exact_only, ignoring_self=alone)
         contact = search.run_to_contact()
         if contact is None:
             return None
         numbers = {scene.bodies[i].name: i for i in pair}
-        return contact.time, contact._touches(numbers)
+        return contact.time, contact.exact_incidences(numbers)
 
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
     """Return True if two bodies certainly keep their places relative to each other."""
-    if any(start < t < end for t in (*a._breakpoints, *b._breakpoints)):
+    if any(start < t < end for t in (*a.exact_breakpoints, *b.exact_breakpoints)):
         return False
-    tracks = (*a._piece_after(start).tracks, *b._piece_after(start).tracks)
+    tracks = (*a.exact_piece_after(start).tracks, *b.exact_piece_after(start).tracks)
     motion = tracks[0].motion
     return motion is not None and all(track.motion == motion for track in tracks)

@@ -58,7 +58,7 @@ def initial_touches(
     if scene.has_radius:
         return _with_radii(scene, near)
     some = range(len(scene.bodies)) if near is None else sorted({i for ij in near for i in ij})
-    points = {i: scene.bodies[i]._at(scene._start) for i in some}
+    points = {i: scene.bodies[i].exact_at(scene.exact_start) for i in some}
     compared = None if near is None else set(near)
     touches: set[Incidence] = set()
     pairs: set[tuple[int, int]] = set()
@@ -135,7 +135,7 @@ def _with_radii(
     scene: Scene, near: Sequence[tuple[int, int]] | None
 ) -> tuple[list[Incidence], list[tuple[int, int]]]:
     """Return the result of `initial_touches`, where some of the bodies have a radius."""
-    radii = [body._radius for body in scene.bodies]
+    radii = [body.exact_radius for body in scene.bodies]
     has_radius = np.array([r > 0 for r in radii], np.bool_)
 
     def squared(i: int, j: int) -> QQ:
@@ -155,14 +155,14 @@ def _with_radii(
         _check_count(met)
     plain = [i for i, r in enumerate(radii) if not r]
     number = {i: k for k, i in enumerate(plain)}
-    part = scene.going_on([scene.bodies[i] for i in plain], scene._start)
+    part = scene.going_on([scene.bodies[i] for i in plain], scene.exact_start)
     some = None
     if near is not None:
         some = [(number[i], number[j]) for i, j in near if i in number and j in number]
     touches, initial_pairs = initial_touches(part, some)
     of_plain = [t._replace(body=plain[t.body], other=plain[t.other]) for t in touches]
     touching = [ij for ij, is_deep in met.items() if not is_deep]
-    at_distance = touches_at_distance(scene, touching, AlgebraicNumber(scene._start))
+    at_distance = touches_at_distance(scene, touching, AlgebraicNumber(scene.exact_start))
     pairs = [(plain[i], plain[j]) for i, j in initial_pairs]
     return sorted([*of_plain, *at_distance]), sorted([*pairs, *met])
 
@@ -175,7 +175,7 @@ def near_at_start(scene: Scene, reach: Sequence[QQ], apart: Apart) -> Iterator[t
         reach: the length by which the box of each body is grown, on each side.
         apart: which pairs are compared.
     """
-    points = [body._at(scene._start) for body in scene.bodies]
+    points = [body.exact_at(scene.exact_start) for body in scene.bodies]
     grown = [
         [(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)]
         for ring, d in zip(points, reach, strict=True)
@@ -192,7 +192,7 @@ def within_at_start(
     for i, j in near:
         check_budget()
         limit = squared(i, j)
-        d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
+        d = squared_distance(scene.bodies[i], scene.bodies[j], scene.exact_start)
         if d <= limit:
             yield (i, j), d < limit
 
@@ -203,8 +203,8 @@ def touches_at_distance(
     """Yield the incidences of pairs of bodies that touch at a time at the sum of their radii."""
     for i, j in pairs:
         two = scene.bodies[i], scene.bodies[j]
-        squared = (two[0]._radius + two[1]._radius) ** 2
-        p, q = (tracks_just_before(body, time, scene._start) for body in two)
+        squared = (two[0].exact_radius + two[1].exact_radius) ** 2
+        p, q = (tracks_just_before(body, time, scene.exact_start) for body in two)
         for pair in feature_pairs(*two, p, q):
             if time.sign_of(pair.at_distance(squared)) == 0 and pair.is_inside(time):
                 yield from renumbered([pair.touch], i, j)

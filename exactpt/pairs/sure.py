@@ -87,10 +87,10 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
         t: a rational time.
         error: the sum of the two distances by which a point of either may be out of place.
     """
-    margin = error - a._radius - b._radius
+    margin = error - a.exact_radius - b.exact_radius
     if margin <= 0:
         return squared_distance(a, b, t) <= margin * margin
-    p, q = a._at(t), b._at(t)
+    p, q = a.exact_at(t), b.exact_at(t)
     first, second = convex_parts(a, p), convex_parts(b, q)
     if any(overlap_everywhere(c, d, margin) for c in first for d in second):
         return True
@@ -183,13 +183,13 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
         end: a later one.
         error: as in `surely_meet`.
     """
-    margin = error - point._radius - other._radius
+    margin = error - point.exact_radius - other.exact_radius
     ends = other.edges[edge]
     if margin <= 0:
         return False
     sides = []
     for t in (begin, end):
-        v, a, b = point._at(t)[0], other._at(t)[ends[0]], other._at(t)[ends[1]]
+        v, a, b = point.exact_at(t)[0], other.exact_at(t)[ends[0]], other.exact_at(t)[ends[1]]
         if squared_from_segment(v, (a, b)) < margin * margin:
             return False
         sides.append(orientation(a, b, v))

@@ -128,7 +128,7 @@ class Surroundings:
     @cached_property
     def minimum(self) -> NearestApproach:
         """The least distance from any other body in the time span."""
-        _, at_start = self.nearest(self._scene._start)
+        _, at_start = self.nearest(self._scene.exact_start)
         bound = max(root_above(QQ(at_start.core_squared)) - QQ(at_start.radius), QQ(0))
         best: NearestApproach | None = None
         for other in self._near(bound):
@@ -139,14 +139,14 @@ class Surroundings:
             least = self.to(other).minimum if touch is None else Minimum(touch, AlgebraicNumber(0))
             if best is None or (least.squared, least.time) < (best.squared, best.time):
                 best = NearestApproach(other, *least)
-                bound = min(bound, root_above(best.squared._high))
+                bound = min(bound, root_above(best.squared.exact_high))
         assert best is not None  # noqa: S101 - the body that is nearest at the start is one
         return best
 
     def _first_within(self, other: str, d: QQ) -> AlgebraicNumber | None:
         """Return the first time at which another body is within a distance."""
         scene, first = self._scene, self._scene.body(self.name)
-        return time_within(first, scene.body(other), scene._start, scene._end, d * d)
+        return time_within(first, scene.body(other), scene.exact_start, scene.exact_end, d * d)
 
     def _near(self, reach: QQ) -> list[str]:
         """Return the names of the other bodies that may come within a distance."""

@@ -91,15 +91,15 @@ def certify(
         raise InputError(f"distance: a number >= 0 is needed, not {show(d)}")
     contact: Contact | None = None
     approach: Approach | None = None
-    span = fraction(scene._start), fraction(scene._end)
+    span = fraction(scene.exact_start), fraction(scene.exact_end)
     if at is not None:
         t = rational(at)
-        if not scene._start <= t <= scene._end:
+        if not scene.exact_start <= t <= scene.exact_end:
             raise InputError(f"at: {show(t)} is not in the time span of the scene")
         span = fraction(t), fraction(t)
     else:
         part = scene if since is None else scene.since(since)
-        span = fraction(part._start), span[1]
+        span = fraction(part.exact_start), span[1]
         if d:
             approach = first_within(part, distance=distance, between=named, ignoring=groups)
         else:
@@ -195,7 +195,7 @@ class _Certificate:
         refuse_degrees(scene.bodies)
         if selection.named == []:
             raise InputError("no pair of bodies counts: there is nothing to certify")
-        self.start, self.end = fraction(scene._start), fraction(scene._end)
+        self.start, self.end = fraction(scene.exact_start), fraction(scene.exact_end)
         self._file, self._distance = file, distance
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._selection = selection
@@ -258,7 +258,11 @@ class _Certificate:
     def _last(self, found: Contact | Approach, start: Fraction) -> tuple[list[str], Fraction]:
         """Return the last line, which shows a contact, and a time up to which there is none."""
         if isinstance(found, Contact):  # without the points and normals of its incidences
-            names, time, touches = found.initial_pairs, found._time, found._touches(self._number)
+            names, time, touches = (
+                found.initial_pairs,
+                found.exact_time,
+                found.exact_incidences(self._number),
+            )
         else:
             names, time, touches = found.pairs, found.time, []
         touches = [touch for touch in touches if touch.body != touch.other]
@@ -268,10 +272,10 @@ class _Certificate:
             raise InputError("there is no certificate of a contact of a body with itself")
         width = QQ((self.end - start) / 2 ** (NEAR + 5))
         time.refine_to(width)
-        while time._low <= start and time.compare_rational(start) > 0:
+        while time.exact_low <= start and time.compare_rational(start) > 0:
             width /= 2**16
             time.refine_to(width)
-        low, high = fraction(time._low), fraction(time._high)
+        low, high = fraction(time.exact_low), fraction(time.exact_high)
         if high == start:
             return [self._meetings.at(sorted(pairs), touches, start)], start
         near = (self.end - start) / 2**NEAR * (3 if low == high else 1)

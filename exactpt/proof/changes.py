@@ -102,7 +102,7 @@ class Angles:
             self._life[v, w] = u, number
             time = self._nodes.fails((u, v, w), now)
             if time is not None:
-                key = enclosing_floats(time._low)[0]
+                key = enclosing_floats(time.exact_low)[0]
                 heapq.heappush(self._failures, (key, number, (v, w), time))
 
     def end(self, half_edges: Iterable[DirectedEdge]) -> None:
@@ -133,7 +133,7 @@ class Angles:
 
     def _popped(self, time: AlgebraicNumber) -> list[Entry]:
         """Take the entries of living angles that may vanish up to a time off the heap."""
-        highest, entries = enclosing_floats(time._high)[1], []
+        highest, entries = enclosing_floats(time.exact_high)[1], []
         while self._failures and self._failures[0][0] <= highest:
             entries.append(heapq.heappop(self._failures))
         return [entry for entry in entries if self._is_alive(entry)]

@@ -37,7 +37,7 @@ def refuse_degrees(bodies: Iterable[Body]) -> None:
 
 def _degree_of_shape(body: Body) -> int:
     """Return the highest degree of a coordinate before the motion."""
-    shape = body._shape
+    shape = body.exact_shape
     if shape.keyframes:
         return 1
     if shape.near is not None:

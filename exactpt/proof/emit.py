@@ -135,7 +135,7 @@ class ProofRun(TilingSearch):
     def lines(self) -> Iterator[str]:
         """Yield the lines, without line ends."""
         scene, driver = self._scene, self.driver
-        yield from header(self._file, scene._start, scene._end)
+        yield from header(self._file, scene.exact_start, scene.exact_end)
         if not scene.bodies:
             yield "none"
             return
@@ -146,12 +146,12 @@ class ProofRun(TilingSearch):
         made: list[str] = []
         part = Part(driver.tiled.kinetic, self.nodes, self.maker, made.extend)
         driver.observers.append(part)
-        while (events := driver.advance(scene._end)) is not None:
+        while (events := driver.advance(scene.exact_end)) is not None:
             driver.spend(len(events))
             yield from made
             made.clear()
         if driver.touches is None:
-            part.none(scene._end)
+            part.none(scene.exact_end)
         else:
             self.contact = driver.meet()
         yield from made
@@ -181,7 +181,7 @@ class Part(Observer):
         self.watch = Watch(kinetic, nodes)
         self._maker, self._put = maker, put
         self._held: Step | None = None
-        self._last = AlgebraicNumber(nodes.scene._start)
+        self._last = AlgebraicNumber(nodes.scene.exact_start)
         self._put(self._maker.faces(self.watch.first()))
 
     def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
@@ -204,7 +204,7 @@ class Part(Observer):
     def before_now(self) -> QQ:
         """Now, if it is rational; else a time between the last two events."""
         now = self.watch.now.simplified()
-        return now._low if now.is_rational else rational_between(self._last, now)
+        return now.exact_low if now.is_rational else rational_between(self._last, now)
 
     def _release(self) -> None:
         """Put the lines of the event that is held back."""

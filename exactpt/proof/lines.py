@@ -55,7 +55,7 @@ class Lines:
         self.after = links | followers(self._nodes.solid_faces())
         for label, cycle in ordered:
             yield f"{label} {' '.join(map(str, cycle))}"
-        self._angles.begin(_angles(links, {}), AlgebraicNumber(self._nodes.scene._start))
+        self._angles.begin(_angles(links, {}), AlgebraicNumber(self._nodes.scene.exact_start))
 
     def contact(
         self, time: AlgebraicNumber, names: Sequence[tuple[int, ...]], touches: Iterable[Incidence]
@@ -76,7 +76,7 @@ class Lines:
         self, touches: Sequence[Incidence], initial_pairs: Sequence[tuple[int, int]]
     ) -> str:
         """Return the last line, if there is a contact at the start."""
-        start = self._nodes.scene._start
+        start = self._nodes.scene.exact_start
         what = self._touch(touches[0]) if touches else self._overlap(*initial_pairs[0])
         return f"contact {start} {start} {what}"
 
@@ -140,7 +140,7 @@ class Lines:
     def _overlap(self, i: int, j: int) -> str:
         """Return a common point of two bodies at the start, if none is a vertex on a boundary."""
         bodies = [self._nodes.scene.bodies[k] for k in (i, j)]
-        p, q = (body._at(self._nodes.scene._start) for body in bodies)
+        p, q = (body.exact_at(self._nodes.scene.exact_start) for body in bodies)
         of_p, of_q = (body.edges for body in bodies)
         for k, (a, b) in enumerate(of_p):
             for m, (c, d) in enumerate(of_q):

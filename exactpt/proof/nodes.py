@@ -42,7 +42,7 @@ class Nodes:
         self.first = list(accumulate((body.size for body in scene.bodies), initial=0))
         self.body_of = [i for i, body in enumerate(scene.bodies) for _ in range(body.size)]
         self.rigid = [
-            _deforms_from(body, scene._start, scene._end) is None for body in scene.bodies
+            _deforms_from(body, scene.exact_start, scene.exact_end) is None for body in scene.bodies
         ]
 
     def solid_faces(self) -> list[list[int]]:
@@ -51,7 +51,7 @@ class Nodes:
         for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
             if not (rigid and body.has_interior):
                 continue
-            points = body._at(self.scene._start)
+            points = body.exact_at(self.scene.exact_start)
             for rings in body.parts:
                 for k, ring in enumerate(rings):
                     nodes = [first + i for i in ring]
@@ -62,14 +62,14 @@ class Nodes:
     def track(self, v: int, after: QQ) -> Track:
         """Return the trajectory of a vertex just after a rational time."""
         i = self.body_of[v]
-        return self.scene.bodies[i]._piece_after(after).track(v - self.first[i])
+        return self.scene.bodies[i].exact_piece_after(after).track(v - self.first[i])
 
     def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
         """Return the last breakpoint of a body not after a time, or the start of the scene."""
-        breaks = self.scene.bodies[i]._breakpoints
+        breaks = self.scene.bodies[i].exact_breakpoints
         return max(
-            (b for b in breaks if b > self.scene._start and time.compare_rational(b) >= 0),
-            default=self.scene._start,
+            (b for b in breaks if b > self.scene.exact_start and time.compare_rational(b) >= 0),
+            default=self.scene.exact_start,
         )
 
     def orientation(self, a: int, b: int, c: int, after: QQ) -> IntPoly:
@@ -88,7 +88,7 @@ class Nodes:
     def breaks(self, vertices: tuple[int, ...]) -> list[QQ]:
         """Return the breakpoints of some vertices, in order."""
         bodies = {self.body_of[v] for v in vertices}
-        return sorted({b for i in bodies for b in self.scene.bodies[i]._breakpoints})
+        return sorted({b for i in bodies for b in self.scene.bodies[i].exact_breakpoints})
 
     def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
         """Return the time at which a new angle vanishes or ceases to be flat; None if never.
@@ -101,14 +101,14 @@ class Nodes:
         if a == b or (self.rigid[i] and self.body_of[a] == i == self.body_of[b]):
             return None
         scene = self.scene
-        breaks = [b for b in self.breaks(angle) if scene._start < b < scene._end]
-        k = bisect_right(breaks, now._low)
+        breaks = [b for b in self.breaks(angle) if scene.exact_start < b < scene.exact_end]
+        k = bisect_right(breaks, now.exact_low)
         while k < len(breaks) and now.compare_rational(breaks[k]) >= 0:
             k += 1
-        begin = breaks[k - 1] if k else scene._start
+        begin = breaks[k - 1] if k else scene.exact_start
         time = now
         straight: bool | None = None
-        for end in [*breaks[k:], scene._end]:
+        for end in [*breaks[k:], scene.exact_end]:
             f = self.orientation(a, p, b, begin)
             if straight is None:
                 straight = not f
@@ -123,15 +123,17 @@ class Nodes:
 
 def rigid_until(scene: Scene) -> QQ:
     """Return the first time at which a body that was rigid deforms, or the end."""
-    times = [_deforms_from(body, scene._start, scene._end) for body in scene.bodies]
-    return min((t for t in times if t is not None and t > scene._start), default=scene._end)
+    times = [_deforms_from(body, scene.exact_start, scene.exact_end) for body in scene.bodies]
+    return min(
+        (t for t in times if t is not None and t > scene.exact_start), default=scene.exact_end
+    )
 
 
 def _deforms_from(body: Body, start: QQ, end: QQ) -> QQ | None:
     """Return the start of the first piece that changes lengths or angles, or None."""
-    times = [start, *(b for b in body._breakpoints if start < b < end)]
+    times = [start, *(b for b in body.exact_breakpoints if start < b < end)]
     for t in times:
-        tracks = body._piece_after(t).tracks
+        tracks = body.exact_piece_after(t).tracks
         motion = tracks[0].motion
         if motion is not None and all(track.motion == motion for track in tracks):
             continue

@@ -94,7 +94,7 @@ class Paths:
 
         Without the motions, in doubles; a shape that has none is at the origin.
         """
-        places = [(body._shape.near or ([0.0] * body.size,) * 2)[:2] for body in self.bodies]
+        places = [(body.exact_shape.near or ([0.0] * body.size,) * 2)[:2] for body in self.bodies]
         along = np.array([[*chain(*some)] for some in zip(*places, strict=True)]).T
         values = along @ DIRECTIONS.T
         low, high = (f.reduceat(values, self.first) for f in (np.minimum, np.maximum))
@@ -105,12 +105,12 @@ class Paths:
 
         None if it does not translate by one linear formula, or its shape has no doubles.
         """
-        piece = self.bodies[body]._piece_after(start)
+        piece = self.bodies[body].exact_piece_after(start)
         moved = piece.translation
         if moved is None or (piece.until is not None and piece.until < end):
             return None
         shape, motion = moved
-        x, y = motion.x._coefficients, motion.y._coefficients
+        x, y = motion.x.exact_coefficients, motion.y.exact_coefficients
         if max(len(x), len(y)) > 2:
             return None
         (a, i), (b, j) = (*x, *ZEROS)[:2], (*y, *ZEROS)[:2]
@@ -127,14 +127,14 @@ class Paths:
         breaks = self.breaks[i].breaks
         key = v, bisect_right(breaks, after) if breaks else 0
         if key not in self._made:
-            track = self.bodies[i]._piece_after(after).track(v - self.first[i])
+            track = self.bodies[i].exact_piece_after(after).track(v - self.first[i])
             self._made[key] = tuple([*map(int, f)] for f in (track.x, track.y, track.w))
         return self._made[key]
 
     def place(self, v: int, t: Fraction) -> Whole:
         """Return where a vertex is at a time."""
         i, time = self.body_of[v], rational(t)
-        x, y = self.bodies[i]._piece_after(time).position(v - self.first[i], time)
+        x, y = self.bodies[i].exact_piece_after(time).position(v - self.first[i], time)
         n, k = int(x.denominator), int(y.denominator)
         w = lcm(n, k)
         return int(x.numerator) * (w // n), int(y.numerator) * (w // k), w

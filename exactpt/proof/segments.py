@@ -73,9 +73,9 @@ class ProofFolder(Observer):
 
     def on_advance(self, scene: Scene, tiling: Tiling) -> None:
         """See `Observer.on_advance`."""
-        if self._part is None and tiling.now.compare_rational(scene._end) < 0:
+        if self._part is None and tiling.now.compare_rational(scene.exact_end) < 0:
             refuse_degrees(scene.bodies)
-            self._begin(scene.going_on(scene.bodies, tiling.now._low), tiling)
+            self._begin(scene.going_on(scene.bodies, tiling.now.exact_low), tiling)
 
     def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
         """See `Observer.on_changed_edges`."""
@@ -89,7 +89,7 @@ class ProofFolder(Observer):
         part, self._part = self._part, None
         if part is None:
             return
-        if t > self._scene._start:
+        if t > self._scene.exact_start:
             part.none(t)
             self._keep(t)
         else:
@@ -124,7 +124,7 @@ class ProofFolder(Observer):
         with self._file as file:
             file.seek(0)
             lines = (line.rstrip("\n") for line in file)
-            self._write(scene, chain(header(scene, self._scene._start, end), lines))
+            self._write(scene, chain(header(scene, self._scene.exact_start, end), lines))
 
     def _write(self, scene: bytes, lines: Iterable[str]) -> None:
         self._written += 1

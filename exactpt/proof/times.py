@@ -26,7 +26,7 @@ def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: No
     """
     time.simplified()
     if time.is_rational:
-        return f"{time._low} {time._low}"
+        return f"{time.exact_low} {time.exact_low}"
     for given in names:
         if len(given) not in (2, 3) or len(set(given)) < len(given):
             continue
@@ -35,10 +35,10 @@ def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: No
         piece = max(nodes.last_break(nodes.body_of[v], time) for v in name)
         f = nodes.vanishing(name, piece)
         if f and time.sign_of(f) == 0:
-            low, high = _interval(time, square_free(f), nodes.breaks(name), nodes.scene._end)
+            low, high = _interval(time, square_free(f), nodes.breaks(name), nodes.scene.exact_end)
             return f"{low} {high} @ {' '.join(map(str, name))}"
-    low, high = _interval(time, time._polynomial, [], nodes.scene._end)
-    return f"{low} {high} {' '.join(map(str, time._polynomial))}"
+    low, high = _interval(time, time.exact_polynomial, [], nodes.scene.exact_end)
+    return f"{low} {high} {' '.join(map(str, time.exact_polynomial))}"
 
 
 def _interval(time: AlgebraicNumber, f: IntPoly, breaks: list[QQ], end: QQ) -> tuple[QQ, QQ]:
@@ -47,11 +47,11 @@ def _interval(time: AlgebraicNumber, f: IntPoly, breaks: list[QQ], end: QQ) -> t
     The interval contains no other root and no breakpoint in its interior; k begins where 2^-k
     has the size of the time.
     """
-    size = max(abs(time._low), abs(end))
+    size = max(abs(time.exact_low), abs(end))
     k = size.denominator.bit_length() - size.numerator.bit_length()
     while True:
         unit = power_of_two(-k)
-        low = floor(time._low / unit) * unit
+        low = floor(time.exact_low / unit) * unit
         while time.compare_rational(low + unit) > 0:
             low += unit
         high = low + unit

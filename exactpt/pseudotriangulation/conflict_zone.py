@@ -64,7 +64,7 @@ class _Search:
         self.mesh = mesh
         self.body = body
         self.t = t
-        self.points: Sequence[Point] = body._at(t)
+        self.points: Sequence[Point] = body.exact_at(t)
         pairs = body.edges or [(0, 0)]
         self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
         self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
@@ -113,7 +113,7 @@ class _Search:
     def _at(self, v: VertexId) -> Point:
         """Return the position of a vertex."""
         if v not in self.known:
-            self.known[v] = self.vertices.all[v].track._at(self.t)
+            self.known[v] = self.vertices.all[v].track.exact_at(self.t)
         return self.known[v]
 
     def _ends(self, h: HalfEdge) -> tuple[Point, Point]:

@@ -39,26 +39,28 @@ class Node:
 
     body: str
     vertex: int
-    _x: QQ
-    _y: QQ
+    exact_x: QQ
+    exact_y: QQ
     _late: tuple[LateQuotient, LateQuotient] | None = None
 
     @property
     def x(self) -> Fraction | AlgebraicNumber:
         """The exact coordinate: a `Fraction` at a rational time."""
-        return fraction(self._x) if self._late is None else self._late[0].value()
+        return fraction(self.exact_x) if self._late is None else self._late[0].value()
 
     @property
     def y(self) -> Fraction | AlgebraicNumber:
         """The exact coordinate: a `Fraction` at a rational time."""
-        return fraction(self._y) if self._late is None else self._late[1].value()
+        return fraction(self.exact_y) if self._late is None else self._late[1].value()
 
     def __reduce__(self) -> tuple[object, ...]:
-        return node_of, (self.body, self.vertex, str(self._x), str(self._y), self._late)
+        return node_of, (self.body, self.vertex, str(self.exact_x), str(self.exact_y), self._late)
 
     def __repr__(self) -> str:
         if self._late is None:
-            return call_in_brief("Node", self.body, self.vertex, str(self._x), str(self._y))
+            return call_in_brief(
+                "Node", self.body, self.vertex, str(self.exact_x), str(self.exact_y)
+            )
         x, y = (f"{float(coordinate)!r}..." for coordinate in (self.x, self.y))
         return call_in_brief("Node", self.body, self.vertex, x, y)
 
@@ -130,7 +132,7 @@ class Snapshot:
         faces: the pseudo-triangles.
     """
 
-    _at: QQ
+    exact_at: QQ
     tiling: str
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
@@ -139,18 +141,18 @@ class Snapshot:
     """The irrational time just before ``_at``, at which the nodes are placed, or None."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        at, time = str(self._at), self._time
+        at, time = str(self.exact_at), self._time
         return snapshot_of, (at, self.tiling, self.nodes, self.edges, self.faces, time)
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.nodes), 'node')}, {counted(len(self.faces), 'face')}"
-        time = cut(str(self._at) if self._time is None else str(self._time), 60)
+        time = cut(str(self.exact_at) if self._time is None else str(self._time), 60)
         return f"<Snapshot of the tiling {self.tiling} at t = {time}: {counts}>"
 
     @property
     def at(self) -> Fraction | AlgebraicNumber:
         """The time; the tiling is the one at that time itself, or just after an irrational one."""
-        return fraction(self._at) if self._time is None else self._time
+        return fraction(self.exact_at) if self._time is None else self._time
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
@@ -166,7 +168,7 @@ class Snapshot:
         """
         edges = []
         for face in self.faces:
-            tip = max(face.corners, key=lambda v: (self.nodes[v]._x, -self.nodes[v]._y))
+            tip = max(face.corners, key=lambda v: (self.nodes[v].exact_x, -self.nodes[v].exact_y))
             edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
         return tuple(sorted(edges))
 
@@ -223,15 +225,17 @@ def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
 
 def placed_at(tiling: Snapshot, time: AlgebraicNumber, vertices: Vertices) -> Snapshot:
     """Return the same tiling with its nodes where they are at an irrational time before."""
-    paths = [path for moving in vertices.bodies for path in moving.body._tracks_just_after(time)]
+    paths = [
+        path for moving in vertices.bodies for path in moving.body.exact_tracks_just_after(time)
+    ]
     nodes = [
         Node(
-            node.body, node.vertex, node._x, node._y,
+            node.body, node.vertex, node.exact_x, node.exact_y,
             (LateQuotient(path.x, path.w, time), LateQuotient(path.y, path.w, time)),
         )
         for node, path in zip(tiling.nodes, paths, strict=True)
     ]  # fmt: skip
-    return Snapshot(tiling._at, tiling.tiling, tuple(nodes), tiling.edges, tiling.faces, time)
+    return Snapshot(tiling.exact_at, tiling.tiling, tuple(nodes), tiling.edges, tiling.faces, time)
 
 
 @final
@@ -243,7 +247,7 @@ class _Contraction:
         self.nodes: list[Node] = []
         for moving in vertices.bodies:
             body = moving.body
-            self.nodes += [Node(body.name, i, x, y) for i, (x, y) in enumerate(body._at(at))]
+            self.nodes += [Node(body.name, i, x, y) for i, (x, y) in enumerate(body.exact_at(at))]
         self.node = vertices.nodes()
         self.cuts: dict[tuple[int, int], set[int]] = {}
 
@@ -281,12 +285,12 @@ class _Contraction:
 
     def _has_area(self, corners: Sequence[int]) -> bool:
         """Return True if a face with these corners has an area."""
-        a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
+        a, b, c = ((self.nodes[v].exact_x, self.nodes[v].exact_y) for v in corners)
         return orientation(a, b, c) != 0
 
     def _cut_along(self, nodes: Sequence[int]) -> None:
         """Split the edges of a face without area at its vertices in their interiors."""
-        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v]._x, self.nodes[v]._y))
+        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v].exact_x, self.nodes[v].exact_y))
         rank = {v: i for i, v in enumerate(ordered)}
         for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
             low, high = sorted((rank[u], rank[v]))
@@ -301,7 +305,10 @@ class _Contraction:
             return
         a = self.nodes[u]
         along = sorted(
-            inside, key=lambda w: abs(self.nodes[w]._x - a._x) + abs(self.nodes[w]._y - a._y)
+            inside,
+            key=lambda w: (
+                abs(self.nodes[w].exact_x - a.exact_x) + abs(self.nodes[w].exact_y - a.exact_y)
+            ),
         )
         for p, q in pairwise([u, *along, v]):
             yield from self._path(p, q)

@@ -28,25 +28,27 @@ class Length:
     Attributes:
         before: the length without the leg; None for zero.
         square: the squared length of the leg.
+        low: a double that is at most the length.
+        high: a double that is at least the length.
     """
 
-    __slots__ = ("_high", "_low", "before", "square")
+    __slots__ = ("before", "high", "low", "square")
 
     def __init__(self, before: Length | None, square: QQ) -> None:
         self.before = before
         self.square = square
         root = nearest_square_root(square)
-        low: float = before._low if before else 0.0
-        high: float = before._high if before else 0.0
+        low: float = before.low if before else 0.0
+        high: float = before.high if before else 0.0
         # The root is in the interval of the neighbours of its nearest double, and a sum of
         # doubles in that of the neighbours of its nearest one.
-        self._low: float = max(0.0, math.nextafter(low + math.nextafter(root, 0.0), 0.0))
-        self._high: float = math.nextafter(high + math.nextafter(root, math.inf), math.inf)
+        self.low: float = max(0.0, math.nextafter(low + math.nextafter(root, 0.0), 0.0))
+        self.high: float = math.nextafter(high + math.nextafter(root, math.inf), math.inf)
 
     def __lt__(self, other: Length) -> bool:
-        if self._high < other._low:
+        if self.high < other.low:
             return True
-        if self._low >= other._high:
+        if self.low >= other.high:
             return False
         legs = self._legs()
         legs.subtract(other._legs())

@@ -30,7 +30,10 @@ class OuterRectangle(NamedTuple):
     @classmethod
     def of(cls, snapshot: Snapshot) -> OuterRectangle:
         """Return the series for a tiling of at least one body."""
-        xs, ys = [node._x for node in snapshot.nodes], [node._y for node in snapshot.nodes]
+        xs, ys = (
+            [node.exact_x for node in snapshot.nodes],
+            [node.exact_y for node in snapshot.nodes],
+        )
         return cls(min(xs), max(xs), min(ys), max(ys))
 
     def corners(self, count: int) -> list[Point]:
@@ -60,7 +63,7 @@ def with_outer_triangulation(
         hull: the nodes on its convex hull, counter-clockwise.
         corners: the corners of the rectangle, see `OuterRectangle.corners`.
     """
-    places = [(node._x, node._y) for node in snapshot.nodes]
+    places = [(node.exact_x, node.exact_y) for node in snapshot.nodes]
     first = len(places)
     nodes = [Node("", 0, x, y) for x, y in corners]
     # One polygon: the corners, a bridge to the hull, clockwise around it, and back. The bridge

@@ -68,19 +68,19 @@ class FreeSpace:
         mesh = kinetic.mesh_now(at)
         # The relative hulls of the mesh change as the run goes on: they are read now.
         self._relative_hulls = mesh.relative_hulls()
-        self._at = at
+        self.exact_at = at
         self._wide: dict[int, ShortestPaths] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, mesh, kinetic.name, at)
 
     def __repr__(self) -> str:
         bodies = counted(len(self._bodies), "body")
         faces = counted(len(self.snapshot.faces), "face")
-        return f"<FreeSpace of {bodies}, {faces}, at t = {show(self._at)}>"
+        return f"<FreeSpace of {bodies}, {faces}, at t = {show(self.exact_at)}>"
 
     @property
     def at(self) -> Fraction:
         """The time of the subdivision."""
-        return fraction(self._at)
+        return fraction(self.exact_at)
 
     def __reduce__(self) -> tuple[object, ...]:
         raise TypeError("a FreeSpace is of its run: copy the simulation, or take the snapshot")
@@ -249,7 +249,7 @@ class FreeSpace:
     def _built_hulls(self) -> Callable[[int], list[VertexId]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        return relative_hulls(PredicatesAt(self._vertices, self._at, after=False))
+        return relative_hulls(PredicatesAt(self._vertices, self.exact_at, after=False))
 
     def neighbours(self, body: str) -> list[str]:
         """Return the bodies connected to a body by a diagonal, in the order of the scene.

@@ -93,7 +93,7 @@ class Subdivision:
 
     def __init__(self, snapshot: Snapshot, bodies: Sequence[Body]) -> None:
         self.snapshot = snapshot
-        self.points: list[Point] = [(node._x, node._y) for node in snapshot.nodes]
+        self.points: list[Point] = [(node.exact_x, node.exact_y) for node in snapshot.nodes]
         self.nodes = Nodes(self.points)
         self.names: list[str] = []
         self.first: list[int] = []

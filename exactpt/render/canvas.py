@@ -121,14 +121,14 @@ class Canvas:
 def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
     """Return the drawing primitives of a still, see `exactpt.render.draw.draw`."""
     scene = still.scene
-    places = {body.name: body._at(still.at) for body in scene.bodies}
+    places = {body.name: body.exact_at(still.at) for body in scene.bodies}
     others = _other_places(scene, poses) if poses else {}
     window = window_of(
         [
             point
             for body in scene.bodies
             for points in (places[body.name], *others.get(body.name, ()))
-            for point in widened(points, body._radius)
+            for point in widened(points, body.exact_radius)
         ]
     )
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}
@@ -138,7 +138,7 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
             pixels[body.name],
             body.edges,
             body.has_interior,
-            nearest_float(body._radius * window.scale),
+            nearest_float(body.exact_radius * window.scale),
         )
         for body in scene.bodies
     ]
@@ -182,9 +182,9 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
 def _other_places(scene: Scene, poses: int) -> dict[str, list[list[Point]]]:
     """Return the places of the bodies that move at `BETWEEN` times for each of the poses."""
     count = BETWEEN * (poses - 1) if poses > 1 else 1
-    step = (scene._end - scene._start) / count
+    step = (scene.exact_end - scene.exact_start) / count
     places = {
-        body.name: [body._at(scene._start + step * k) for k in range(count + 1)]
+        body.name: [body.exact_at(scene.exact_start + step * k) for k in range(count + 1)]
         for body in scene.bodies
     }
     return {name: found for name, found in places.items() if any(p != found[0] for p in found)}
@@ -229,7 +229,7 @@ def _scale_bar(window: Window) -> tuple[float, str]:
 def _tiling(
     tiling: Snapshot, window: Window, colours: dict[str, str]
 ) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
-    pixels = [window.pixel(node._x, node._y) for node in tiling.nodes]
+    pixels = [window.pixel(node.exact_x, node.exact_y) for node in tiling.nodes]
     tiles = tuple(
         Tile(
             tuple(pixels[v] for v in face.nodes),
@@ -266,7 +266,7 @@ def marks_of(
     scene: Scene, contact: Contact, pixels: dict[str, tuple[Pixel, ...]], window: Window
 ) -> tuple[Mark, ...]:
     """Return the marks of a contact; ``pixels`` are those of the bodies, by name."""
-    rounded = {body.name for body in scene.bodies if body._radius}
+    rounded = {body.name for body in scene.bodies if body.exact_radius}
     return tuple(
         _mark(pair, edge, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
         for pair, edge in zip(contact.pairs, touched_edges(contact, scene), strict=True)

@@ -32,7 +32,7 @@ _LONGEST: Final = 1200
 def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, object]:
     """Return the JSON data that the page needs; ``at`` is the time shown first."""
     scene = film.scene
-    time_unit = exponent_above(scene._end - scene._start)
+    time_unit = exponent_above(scene.exact_end - scene.exact_start)
     time_bits = BITS - time_unit
     length_unit, origin = _extent(film)
     end = film.end
@@ -40,11 +40,11 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
         "tiling": film.tiling,
         "timeUnit": time_unit,
         "lengthUnit": length_unit,
-        "start": _integer(fixed(scene._start, time_bits)),
+        "start": _integer(fixed(scene.exact_start, time_bits)),
         "end": _integer(fixed(end, time_bits)),
         "at": None if at is None else _integer(fixed(at, time_bits)),
-        "startText": str(scene._start),
-        "endText": str(scene._end),
+        "startText": str(scene.exact_start),
+        "endText": str(scene.exact_end),
         "origin": [_integer(fixed(c, BITS - length_unit)) for c in origin],
         "bodies": [_body(i, film, time_bits, length_unit) for i in range(len(scene.bodies))],
         "steps": [_step(step, time_bits) for step in film.steps],
@@ -65,8 +65,8 @@ def _integer(value: int) -> int | str:
 def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
     """Return the exponent of a power of two >= the scene's size, and a point in the scene."""
     scene = film.scene
-    last = film.end.simplified()._canonical_interval()[0]
-    times = (scene._start, (scene._start + last) / 2, last)
+    last = film.end.simplified().exact_canonical_interval()[0]
+    times = (scene.exact_start, (scene.exact_start + last) / 2, last)
     boxes = [
         (min(values), max(values))
         for t in times
@@ -75,7 +75,7 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
                 point
                 for i, body in enumerate(scene.bodies)
                 if film.is_there(i, t)
-                for point in widened(body._at(t), body._radius)
+                for point in widened(body.exact_at(t), body.exact_radius)
             ),
             strict=True,
         )
@@ -91,20 +91,20 @@ def _body(index: int, film: Film, time_bits: int, length_unit: int) -> list[obje
     scene, end = film.scene, film.end
     body = scene.bodies[index]
     pieces: list[object] = []
-    time: QQ | None = scene._start
+    time: QQ | None = scene.exact_start
     while time is not None and end.compare_rational(time) >= 0:
-        piece = body._piece_after(time)
+        piece = body.exact_piece_after(time)
         tracks = [[[_integer(c) for c in f] for f in (t.x, t.y, t.w)] for t in piece.tracks]
         time = piece.until
         pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
     more: list[object] = []
-    if body._radius or body.has_rings or film.spans:
-        more.append(_in_units(body._radius, length_unit))
+    if body.exact_radius or body.has_rings or film.spans:
+        more.append(_in_units(body.exact_radius, length_unit))
     if body.has_rings or film.spans:
         more.append([ring.start for ring in body.rings])
     if film.spans:
         since, until = (_integer(fixed(t, time_bits)) for t in film.spans[index])
-        more += [since, None if film.spans[index][1] == scene._end else until]
+        more += [since, None if film.spans[index][1] == scene.exact_end else until]
     return [body.name, body_colour(index), body.closed, pieces, *more]
 
 
@@ -128,9 +128,9 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
         "certificate": list(step.certificate),
     }
     if number.is_rational:
-        data["exact"] = str(number._low)
+        data["exact"] = str(number.exact_low)
         return data
-    digits = [str(c) for c in number._polynomial]
+    digits = [str(c) for c in number.exact_polynomial]
     data["degree"] = len(digits) - 1
     data["exact"] = digits if sum(map(len, digits)) <= _LONGEST else None
     return data
@@ -169,9 +169,9 @@ def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, obje
         start = first[pair.other]
         edge = None if touched is None else [start + vertex for vertex in touched]
         other = None if pair.other_vertex is None else start + pair.other_vertex
-        radius = scene.body(pair.body)._radius
+        radius = scene.body(pair.body).exact_radius
         shift = None
-        if pair.normal is not None and (radius or scene.body(pair.other)._radius):
+        if pair.normal is not None and (radius or scene.body(pair.other).exact_radius):
             # From the vertex of the core to the common point.
             shift = [-_in_units(radius, length_unit) * c for c in pair.normal]
         pairs.append(

@@ -93,7 +93,7 @@ def draw(
     if gap is not None:
         _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap), below), theme=light))
         return
-    then = None if at == "contact" else scene._start if at is None else at
+    then = None if at == "contact" else scene.exact_start if at is None else at
     picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     frame = frame_of(picture, legend=legend, poses=poses)
     _write_picture(path, svg_of(frame, theme=light))
@@ -144,21 +144,21 @@ def _write_picture(path: Path, svg: str) -> None:
 
 def _shown(film: Film) -> Scene:
     """Return the scene up to the end of its animation; all of it if that ends at the start."""
-    last = film.end.simplified()._canonical_interval()[1]
-    return film.scene.until(last) if last > film.scene._start else film.scene
+    last = film.end.simplified().exact_canonical_interval()[1]
+    return film.scene.until(last) if last > film.scene.exact_start else film.scene
 
 
 def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNumber | QQ | None:
     if at == "contact":
         if film.contact is None:
             raise InputError(
-                f"no contact to draw from t = {show(film.scene._start)} "
-                f"to t = {show(film.scene._end)}"
+                f"no contact to draw from t = {show(film.scene.exact_start)} "
+                f"to t = {show(film.scene.exact_end)}"
             )
         return film.end
-    if at is not None and (at < film.scene._start or film.end.compare_rational(at) < 0):
+    if at is not None and (at < film.scene.exact_start or film.end.compare_rational(at) < 0):
         raise TimeRangeError(
             f"nothing to show at t = {show(at)}: the animation runs from "
-            f"t = {show(film.scene._start)} to t = {float(film.end)!r}"
+            f"t = {show(film.scene.exact_start)} to t = {float(film.end)!r}"
         )
     return at

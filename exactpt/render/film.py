@@ -78,14 +78,14 @@ class Film:
         if not self.spans:
             return True
         since, until = self.spans[body]
-        return since <= t and (t < until or until == self.scene._end)
+        return since <= t and (t < until or until == self.scene.exact_end)
 
     @property
     def end(self) -> AlgebraicNumber:
         """The last time of the run."""
         if self.contact is not None:
             return self.contact.time
-        return AlgebraicNumber(self.scene._end)
+        return AlgebraicNumber(self.scene.exact_end)
 
 
 def film_of(
@@ -115,7 +115,7 @@ def film_of(
     budget = Budget(max_events, max_seconds)
     driver = Driver(scene, budget=budget)
     with carrying(lambda: scene), searching(None, driver.contact_free_until), budget.held():
-        plan = plan_tiling(scene, tiling, scene._start)
+        plan = plan_tiling(scene, tiling, scene.exact_start)
         contact = driver.start(plan)
         if contact is not None:
             return film_without_tiling(scene, plan.name, contact)
@@ -123,7 +123,7 @@ def film_of(
         tracker = Tracker(driver.tiled.kinetic, node)
         driver.observers.append(tracker)
         steps: list[Step] = []
-        while (events := driver.advance(scene._end)) is not None:
+        while (events := driver.advance(scene.exact_end)) is not None:
             if events:
                 changes = [_change(event, node) for event in events]
                 steps.append(_step(driver.tiled.kinetic, node, changes))

@@ -31,7 +31,7 @@ def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
     # Refinement ends: a rational number gets an interval with equal ends, an irrational one
     # lies strictly between two consecutive multiples.
     number = value.simplified()
-    while (n := floor(number._low * scale)) != floor(number._high * scale):
+    while (n := floor(number.exact_low * scale)) != floor(number.exact_high * scale):
         number.refine()
     return int(n)
 
@@ -43,6 +43,6 @@ def near(value: AlgebraicNumber, span: QQ) -> QQ:
     """
     number = value.simplified()
     if number.is_rational:
-        return number._low
+        return number.exact_low
     bits = BITS - exponent_above(span)
     return fixed(number, bits) * power_of_two(-bits)

@@ -151,8 +151,8 @@ def _hundredths(k: int, fps: int) -> int:
 
 def frames_of(film: Film, count: int) -> Iterator[Canvas]:
     """Frames at ``count`` + 1 times, the first at the start and the last at the end."""
-    start = film.scene._start
-    end = near(film.end.simplified(), film.scene._end - start)
+    start = film.scene.exact_start
+    end = near(film.end.simplified(), film.scene.exact_end - start)
     window = _window(film, [start + (end - start) * k / _WHOLE for k in range(_WHOLE + 1)])
     step = 0
     for k in range(count + 1):
@@ -171,14 +171,14 @@ def _window(film: Film, times: list[QQ]) -> Window:
             for t in times
             for i, body in enumerate(film.scene.bodies)
             if film.is_there(i, t)
-            for point in widened(body._at(t), body._radius)
+            for point in widened(body.exact_at(t), body.exact_radius)
         ]
     )
 
 
 def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Canvas:
     bodies = film.scene.bodies
-    pixels = [tuple(window.pixel(x, y) for x, y in body._at(t)) for body in bodies]
+    pixels = [tuple(window.pixel(x, y) for x, y in body.exact_at(t)) for body in bodies]
     nodes = [pixel for body in pixels for pixel in body]
     place = {body.name: pixels[i] for i, body in enumerate(bodies)}
     contact = film.contact if is_end else None
@@ -205,7 +205,7 @@ def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Can
                 body.closed,
                 None,
                 body.rings,
-                nearest_float(body._radius * window.scale),
+                nearest_float(body.exact_radius * window.scale),
             )
             for i, body in enumerate(bodies)
             if film.is_there(i, t)

@@ -26,7 +26,7 @@ MAX_SECONDS: Final = 5.0
 
 def scene_svg(scene: Scene) -> str:
     """Return an SVG picture of the bodies of a scene at its start."""
-    return svg_of(frame_of(Still(scene, scene._start, None, None)))
+    return svg_of(frame_of(Still(scene, scene.exact_start, None, None)))
 
 
 def simulation_svg(simulation: Simulation) -> str:
@@ -62,6 +62,6 @@ def contact_html(contact: Contact) -> str:
     heading = f"First contact at {time_in_words(number)} ({contact.kind})"
     lines = incidences_in_words(contact)
     if not number.is_rational:
-        lines.insert(0, f"the time is a root of {polynomial_in_words(number._polynomial)}")
+        lines.insert(0, f"the time is a root of {polynomial_in_words(number.exact_polynomial)}")
     items = "".join(f"<li>{escape(clean(line))}</li>" for line in lines)
     return f"<div><b>{escape(heading)}</b><ul>{items}</ul></div>"

@@ -82,7 +82,7 @@ def _summary(film: Film) -> str:
     count = sum(len(step.changes) for step in film.steps)
     bodies = counted(len(scene.bodies), "body")
     vertices = counted(scene.vertex_count, "vertex")
-    span = f"from {time_in_words(scene._start)} to {time_in_words(film.end.simplified())}"
+    span = f"from {time_in_words(scene.exact_start)} to {time_in_words(film.end.simplified())}"
     return f"{bodies}, {vertices}, {film.tiling} tiling, {counted(count, 'event')} {span}"
 
 

@@ -50,7 +50,10 @@ def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
 
     The curve is linear between samples; these include the ends of all pieces and the minimum.
     """
-    start, end = gap.pieces[0].start.simplified()._low, gap.pieces[-1].end.simplified()._low
+    start, end = (
+        gap.pieces[0].start.simplified().exact_low,
+        gap.pieces[-1].end.simplified().exact_low,
+    )
     least = gap.minimum
     span = end - start
     times = {start + span * k / SAMPLES for k in range(SAMPLES + 1)}

@@ -53,10 +53,10 @@ def still(
         TimeRangeError: if the time is outside the span or after the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if at is not None and not scene._start <= at <= scene._end:
+    if at is not None and not scene.exact_start <= at <= scene.exact_end:
         raise TimeRangeError(
             f"t = {show(at)} is outside the time span "
-            f"from {show(scene._start)} to {show(scene._end)}"
+            f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
         )
     simulation: Simulation | None = None
     if tiling is None or (tiling == "auto" and not are_tileable(scene.bodies)):
@@ -72,7 +72,7 @@ def still(
         contact = None
     if at is None and contact is None:
         raise InputError(
-            f"no contact to draw from t = {show(scene._start)} to t = {show(scene._end)}"
+            f"no contact to draw from t = {show(scene.exact_start)} to t = {show(scene.exact_end)}"
         )
     if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
         raise TimeRangeError(
@@ -81,15 +81,19 @@ def still(
         )
     if simulation is not None:
         return still_of(simulation)
-    now = at if contact is None else near(contact.time.simplified(), scene._end - scene._start)
-    return Still(scene, scene._start if now is None else now, None, contact)
+    now = (
+        at
+        if contact is None
+        else near(contact.time.simplified(), scene.exact_end - scene.exact_start)
+    )
+    return Still(scene, scene.exact_start if now is None else now, None, contact)
 
 
 def still_of(simulation: Simulation) -> Still:
     """Return a simulation at its current time."""
     scene, kinetic, contact = simulation.scene, simulation.kinetic, simulation.contact
     now = (simulation.now if contact is None else contact.time).simplified()
-    at = near(now, scene._end - scene._start)
+    at = near(now, scene.exact_end - scene.exact_start)
     if kinetic is None:
         return Still(scene, at, None, contact)
     # At an event time the tiling may be undefined: draw the one that ends or begins there.

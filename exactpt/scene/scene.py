@@ -42,7 +42,7 @@ class Scene:
         RoundingError: see `check_rounding`.
     """
 
-    __slots__ = ("_end", "_start", "bodies", "lost")
+    __slots__ = ("bodies", "exact_end", "exact_start", "lost")
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         check_rounding()
@@ -51,13 +51,13 @@ class Scene:
         for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
                 raise InputError(f"body {i}: not a body: {shorten(body)}")
-        self._start, self._end = _span(time)
+        self.exact_start, self.exact_end = _span(time)
         names: set[str] = set()
         for body in self.bodies:
             if body.name in names:
                 raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
             names.add(body.name)
-            check_valid(body, self._start, self._end)
+            check_valid(body, self.exact_start, self.exact_end)
 
     @classmethod
     def from_arrays(
@@ -137,12 +137,12 @@ class Scene:
     @property
     def start(self) -> Fraction:
         """The first time."""
-        return fraction(self._start)
+        return fraction(self.exact_start)
 
     @property
     def end(self) -> Fraction:
         """The last time, after ``start``."""
-        return fraction(self._end)
+        return fraction(self.exact_end)
 
     @property
     def time(self) -> tuple[Fraction, Fraction]:
@@ -303,12 +303,12 @@ class Scene:
         Raises:
             InputError: if the end is not after the start.
         """
-        last = min(rational(end), self._end)
-        if last <= self._start:
+        last = min(rational(end), self.exact_end)
+        if last <= self.exact_start:
             raise InputError(
-                f"the end t = {show(last)} is not after the start t = {show(self._start)}"
+                f"the end t = {show(last)} is not after the start t = {show(self.exact_start)}"
             )
-        return scene_of(self.bodies, self._start, last)
+        return scene_of(self.bodies, self.exact_start, last)
 
     def since(self, start: Rational) -> Scene:
         """Return the scene from a later start on; an earlier start changes nothing.
@@ -316,18 +316,18 @@ class Scene:
         Raises:
             InputError: if the start is not before the end, or a body is not valid at the start.
         """
-        first = max(rational(start), self._start)
-        if first >= self._end:
+        first = max(rational(start), self.exact_start)
+        if first >= self.exact_end:
             raise InputError(
-                f"the start t = {show(first)} is not before the end t = {show(self._end)}"
+                f"the start t = {show(first)} is not before the end t = {show(self.exact_end)}"
             )
         for body in self.bodies:
-            check_valid(body, first, self._end)
-        return scene_of(self.bodies, first, self._end)
+            check_valid(body, first, self.exact_end)
+        return scene_of(self.bodies, first, self.exact_end)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """Return the scene from a later start on, at which its bodies are known to be valid."""
-        return scene_of(tuple(bodies), start, self._end)
+        return scene_of(tuple(bodies), start, self.exact_end)
 
     @property
     def vertex_count(self) -> int:
@@ -341,7 +341,7 @@ class Scene:
         arrays = self._arrays
         if arrays is not None:
             return bool(arrays.radii.any())
-        return any(body._radius for body in self.bodies)
+        return any(body.exact_radius for body in self.bodies)
 
     @property
     def _arrays(self) -> BodyArrays | None:
@@ -356,13 +356,17 @@ class Scene:
         """Return True if the bodies, in order, and the time spans are equal."""
         if not isinstance(other, Scene):
             return NotImplemented
-        return (self.bodies, self._start, self._end) == (other.bodies, other._start, other._end)
+        return (self.bodies, self.exact_start, self.exact_end) == (
+            other.bodies,
+            other.exact_start,
+            other.exact_end,
+        )
 
     def __hash__(self) -> int:
-        return hash((self.bodies, self._start, self._end))
+        return hash((self.bodies, self.exact_start, self.exact_end))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _valid_scene, (self.bodies, str(self._start), str(self._end))
+        return _valid_scene, (self.bodies, str(self.exact_start), str(self.exact_end))
 
     def draw(
         self,
@@ -429,13 +433,14 @@ class Scene:
     def __repr__(self) -> str:
         bodies = counted(len(self.bodies), "body")
         vertices = counted(self.vertex_count, "vertex")
-        return f"<Scene: {bodies}, {vertices}, t in [{show(self._start)}, {show(self._end)}]>"
+        span = f"[{show(self.exact_start)}, {show(self.exact_end)}]"
+        return f"<Scene: {bodies}, {vertices}, t in {span}>"
 
 
 def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
     """Return the scene of bodies that are known to be valid."""
     scene = Scene.__new__(Scene)
-    scene.bodies, scene._start, scene._end = bodies, start, end
+    scene.bodies, scene.exact_start, scene.exact_end = bodies, start, end
     scene.lost = ()
     return scene
 

@@ -63,7 +63,7 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
         motion, outlines = first.motion, [(body, _rest_points(body)) for body in given]
     elif all(map(_is_at_rest, given)):
         _check_error(given)
-        motion, outlines = REST, [(body, body._at(QQ(0))) for body in given]
+        motion, outlines = REST, [(body, body.exact_at(QQ(0))) for body in given]
     else:
         raise InputError(
             f"union: bodies {shorten(first.name)} and {shorten(other.name)} move differently: only "
@@ -81,7 +81,7 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
 def _check_polygon(body: object) -> None:
     if not isinstance(body, Body):
         raise InputError(f"union: not a body: {shorten(body)}")
-    if body._radius:
+    if body.exact_radius:
         raise InputError(
             f"union: body {shorten(body.name)} has a radius: only polygons without a radius can be "
             "united"
@@ -102,7 +102,7 @@ def _rest_points(body: Body) -> list[Point]:
             f"union: body {shorten(body.name)} deforms: only bodies that keep their shape can be "
             "united"
         )
-    return [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+    return [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices]
 
 
 def _have_equal_motions(a: Body, b: Body) -> bool:
@@ -117,12 +117,14 @@ def _have_equal_motions(a: Body, b: Body) -> bool:
         return False
     corners = [(0, 0), (1, 0), (0, 1)]
     first, second = (Body(body.name, corners, body.motion) for body in (a, b))
-    breaks = sorted({*first._breakpoints, *second._breakpoints})
+    breaks = sorted({*first.exact_breakpoints, *second.exact_breakpoints})
     before_all = breaks[0] - 1 if breaks else QQ(0)
     return all(
         _coincide(p, q)
         for t in (before_all, *breaks)
-        for p, q in zip(first._piece_after(t).tracks, second._piece_after(t).tracks, strict=True)
+        for p, q in zip(
+            first.exact_piece_after(t).tracks, second.exact_piece_after(t).tracks, strict=True
+        )
     )
 
 
@@ -148,7 +150,7 @@ def _check_error(bodies: Sequence[Body]) -> None:
 
 def _is_at_rest(body: Body) -> bool:
     """Return True if no vertex ever moves."""
-    pieces = [body._piece_after(t) for t in (QQ(0), *body._breakpoints)]
+    pieces = [body.exact_piece_after(t) for t in (QQ(0), *body.exact_breakpoints)]
     coordinates = [f for piece in pieces for p in piece.tracks for f in (p.x, p.y, p.w)]
     return all(len(f) <= 1 for f in coordinates)
 

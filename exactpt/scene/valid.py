@@ -39,7 +39,7 @@ def check_exactly(body: Body, start: QQ, end: QQ) -> None:
     Raises:
         InputError: if it is not, with the vertices, edges and points at the start.
     """
-    points = body._at(start)
+    points = body.exact_at(start)
     meetings = ring_meetings(points, body.edges, body.rings)
     prefix = ""
     try:

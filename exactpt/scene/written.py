@@ -48,7 +48,7 @@ def _text(value: QQ) -> str:
 
 
 def _coefficients(f: Polynomial) -> list[str]:
-    return [_text(c) for c in f._coefficients] or ["0"]
+    return [_text(c) for c in f.exact_coefficients] or ["0"]
 
 
 def to_json(scene: Scene) -> dict[str, object]:
@@ -59,7 +59,7 @@ def to_json(scene: Scene) -> dict[str, object]:
     """
     return {
         "exactpt": VERSION,
-        "time": [_text(scene._start), _text(scene._end)],
+        "time": [_text(scene.exact_start), _text(scene.exact_end)],
         "bodies": [_named_body_to_json(body) for body in scene.bodies],
     }
 
@@ -75,12 +75,12 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
-    if body._radius:
-        data["radius"] = _text(body._radius)
-    if body._shape.keyframes:
+    if body.exact_radius:
+        data["radius"] = _text(body.exact_radius)
+    if body.exact_shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
-            for f in body._shape.keyframes
+            for f in body.exact_shape.keyframes
         ]
     elif len(body.parts) > 1:
         data["parts"] = [_part_to_json(body, rings) for rings in body.parts]
@@ -112,7 +112,7 @@ def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:
 
 
 def _ring_to_json(body: Body, ring: range) -> list[object]:
-    doubles = body._shape.doubles
+    doubles = body.exact_shape.doubles
     if doubles is None:
         return [_vertex_to_json(body.vertices[i]) for i in ring]
     xs, ys = doubles
@@ -132,7 +132,7 @@ def _vertex_to_json(vertex: Position) -> object:
 
 def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Pieces):
-        ends = [{"until": _text(t)} for t in motion._until]
+        ends = [{"until": _text(t)} for t in motion.exact_until]
         pieces: dict[str, object] = {
             "pieces": [
                 {**end, "motion": _motion_to_json(m)}
@@ -140,21 +140,24 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
             ]
         }
         if isinstance(motion, Spin):
-            pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
+            pieces["spin"] = {
+                "omega": _text(motion.exact_omega),
+                "error": _text(motion.exact_error),
+            }
         if isinstance(motion, PosePath):
             pieces["path"] = _path_to_json(motion)
         if isinstance(motion, Spline):
-            pieces["spline"] = {"error": _text(motion._error)}
+            pieces["spline"] = {"error": _text(motion.exact_error)}
         return pieces
     if isinstance(motion, Rigid):
         rigid = {
-            "pivot": [_text(c) for c in motion._pivot],
+            "pivot": [_text(c) for c in motion.exact_pivot],
             "half_turn": _coefficients(motion.half_turn),
             "x": _coefficients(motion.x),
             "y": _coefficients(motion.y),
         }
-        if motion._orientation[0] != 1:
-            rigid["orientation"] = [_text(c) for c in motion._orientation]
+        if motion.exact_orientation[0] != 1:
+            rigid["orientation"] = [_text(c) for c in motion.exact_orientation]
         return {"rigid": rigid}
     if isinstance(motion, Affine):
         matrix = [[_coefficients(p) for p in row] for row in motion.matrix]
@@ -166,15 +169,15 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
 
 
 def _path_to_json(path: PosePath) -> dict[str, object]:
-    assumed = path._assumed_angle_error
+    assumed = path.exact_assumed_angle_error
     return {
-        "error": _text(path._error),
-        "place_error": _text(path._place_error),
+        "error": _text(path.exact_error),
+        "place_error": _text(path.exact_place_error),
         **({"assumed_angle_error": _text(assumed)} if assumed else {}),
-        "times": [_text(t) for t in path._times],
+        "times": [_text(t) for t in path.exact_times],
         "poses": [
             {"x": _coefficients(x), "y": _coefficients(y), "angle": _coefficients(angle)}
-            for x, y, angle in path._poses
+            for x, y, angle in path.exact_poses
         ],
     }
 

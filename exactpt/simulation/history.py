@@ -101,9 +101,9 @@ class Log:
     """Collects the changes of a run for its `History`."""
 
     def __init__(self, scene: Scene) -> None:
-        self._start = scene._start
-        self._end = scene._end
-        self._plans = {body.name: [(scene._start, body)] for body in scene.bodies}
+        self._start = scene.exact_start
+        self._end = scene.exact_end
+        self._plans = {body.name: [(scene.exact_start, body)] for body in scene.bodies}
         self._gone: list[Life] = []
         self._marks: list[Mark] = []
 
@@ -147,7 +147,7 @@ class Log:
 
     def history(self, now: AlgebraicNumber, contact: Contact | None) -> History:
         """Return the run up to now; if that is irrational, to a rational time just before."""
-        end = now.simplified()._canonical_interval()[0] if contact is None else self._end
+        end = now.simplified().exact_canonical_interval()[0] if contact is None else self._end
         here = [_life(plans, end) for plans in self._plans.values()]
         lives = sorted([*self._gone, *here], key=lambda life: life.since)
         marks = sorted(self._marks, key=lambda mark: mark.time)
@@ -155,7 +155,9 @@ class Log:
 
 
 def _is_same_shape(a: Body, b: Body) -> bool:
-    return a._shape is b._shape or (a.vertices == b.vertices and a.keyframes == b.keyframes)
+    return a.exact_shape is b.exact_shape or (
+        a.vertices == b.vertices and a.keyframes == b.keyframes
+    )
 
 
 def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:

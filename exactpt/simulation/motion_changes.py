@@ -60,7 +60,7 @@ def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
         new = body.with_motion(motion)
     if _moves_on(body, new, t):
         return new
-    for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
+    for i, (p, q) in enumerate(zip(body.exact_at(t), new.exact_at(t), strict=True)):
         if p != q:
             raise InputError(
                 f"body {shorten(body.name)}: vertex {i} {jump(t, p, q)}; "
@@ -71,12 +71,12 @@ def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
 
 def _moves_on(body: Body, new: Body, t: QQ) -> bool:
     """Return True if a shape is translated before and after a time, by one vector there."""
-    before, after = body._piece_after(t).motion, new._piece_after(t).motion
+    before, after = body.exact_piece_after(t).motion, new.exact_piece_after(t).motion
     return (
-        body._shape is new._shape
+        body.exact_shape is new.exact_shape
         and isinstance(before, Translation)
         and isinstance(after, Translation)
-        and before._at(t) == after._at(t)
+        and before.exact_at(t) == after.exact_at(t)
     )
 
 
@@ -113,7 +113,7 @@ def onward(
     now = rational(t)
     vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
     x, y = (
-        Polynomial([f._at(now) - v * now, v])
+        Polynomial([f.exact_at(now) - v * now, v])
         for f, v in zip(
             translation_at(body, now),
             (round_to_grid(vx, grid), round_to_grid(vy, grid)),
@@ -130,7 +130,7 @@ def onward(
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
     """Return the translational part of a body's motion just after a time."""
-    motion = body._piece_after(t).motion
+    motion = body.exact_piece_after(t).motion
     if isinstance(motion, (Translation, Rigid, Affine)):
         return motion.x, motion.y
     raise InputError(f"a motion of this kind has no translation: {shorten(motion)}")
@@ -144,8 +144,8 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
     """
     if isinstance(t, AlgebraicNumber):
         t = t.simplified()
-        passed = [b for b in body._breakpoints if t.compare_rational(b) >= 0]
-        near = t._low if t.is_rational or not passed else passed[-1]
+        passed = [b for b in body.exact_breakpoints if t.compare_rational(b) >= 0]
+        near = t.exact_low if t.is_rational or not passed else passed[-1]
         if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):
             raise InputError(
                 f"body {shorten(body.name)}: its velocity at the irrational time {float(t)!r} is "
@@ -153,14 +153,14 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
             )
         t = near
     x, y = translation_at(body, t)
-    return x.derivative()._at(t), y.derivative()._at(t)
+    return x.derivative().exact_at(t), y.derivative().exact_at(t)
 
 
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
     """Return the same motion with another translation."""
     if isinstance(motion, Rigid):
-        turned = motion._orientation
-        return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y, orientation=turned)
+        turned = motion.exact_orientation
+        return Rigid(motion.half_turn, pivot=motion.exact_pivot, x=x, y=y, orientation=turned)
     if isinstance(motion, Affine):
         return Affine(motion.matrix, x=x, y=y)
     return Translation(x, y)

@@ -51,7 +51,7 @@ class MutableScene(TiledScene):
         self.changes = changes
         self._end = scene
         self._is_new = False  # whether the scene is to be built
-        self._since = scene._start
+        self._since = scene.exact_start
         self._given: Sequence[Body] = scene.bodies
         self._copied: list[Body] | None = None  # of the bodies given, when they are first needed
         self._numbered: dict[str, int] | None = None
@@ -122,9 +122,9 @@ class MutableScene(TiledScene):
                 f"motions change at rational times only, not at t = {float(now)!r}: "
                 "run until a rational time first"
             )
-        if now._low >= self._end._end:
-            raise InputError(f"t = {show(now._low)} is the end of the time span")
-        return now._low
+        if now.exact_low >= self._end.exact_end:
+            raise InputError(f"t = {show(now.exact_low)} is the end of the time span")
+        return now.exact_low
 
     def set_motions(self, motions: Mapping[str, Motion | Body]) -> list[RunEvent]:
         """Change motions, see `Simulation.set_motions`; return the events caused at once."""
@@ -149,7 +149,7 @@ class MutableScene(TiledScene):
         if body.name in self._number:
             raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
         refuse_untileable([body])
-        alone = Scene([body], (t, self._end._end))  # checks its shape
+        alone = Scene([body], (t, self._end.exact_end))  # checks its shape
         bodies = [*self._bodies, body]
         events = None if body.has_rings else self.kinetic.add_body(body, t)
         if events is None:

@@ -64,7 +64,7 @@ def _inner_corner(edges: list[Vector], inside: Vector) -> list[Vector]:
 
 def _edges_at(body: Body, vertex: int, t: QQ) -> list[Vector]:
     """Return the directions of the edges at a vertex."""
-    points = body._at(t)
+    points = body.exact_at(t)
     (x, y) = points[vertex]
     ends = [points[j if i == vertex else i] for i, j in body.edges if vertex in (i, j)]
     return [u for p, q in ends if (u := _direction(p - x, q - y)) is not None]
@@ -73,7 +73,8 @@ def _edges_at(body: Body, vertex: int, t: QQ) -> list[Vector]:
 def _between_centers(a: Body, b: Body, t: QQ) -> Vector:
     """Return the direction from the centroid of the vertices of b to that of a."""
     (ax, ay), (bx, by) = (
-        [sum((p[k] for p in body._at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
+        [sum((p[k] for p in body.exact_at(t)), QQ(0)) / body.size for k in (0, 1)]
+        for body in (a, b)
     )
     return _direction(ax - bx, ay - by) or (1.0, 0.0)
 

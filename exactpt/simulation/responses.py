@@ -30,7 +30,7 @@ ROUNDS: Final = 8
 
 def stop(simulation: Simulation, contact: Contact) -> None:
     """Stop all bodies of a contact, in their current position and shape."""
-    t = simulation.now._low
+    t = simulation.now.exact_low
     names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
     simulation.set_motions({name: simulation.body(name).halted(t) for name in names})
 
@@ -108,7 +108,7 @@ class Bounce:
     def __call__(self, simulation: Simulation, contact: Contact) -> None:
         """Give the bodies of a contact velocities with which they separate."""
         self._check_names(simulation)
-        t = simulation.now._low
+        t = simulation.now.exact_low
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
         change = {name: [0.0, 0.0] for name in names}
@@ -239,17 +239,17 @@ def _velocities(pair: ContactPoint, a: Body, b: Body, t: QQ) -> tuple[Vector, Ve
 
 def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
     """Return the velocity of a vertex just after a time, in doubles."""
-    x, y = body._piece_after(t).track(vertex).velocity(t)
+    x, y = body.exact_piece_after(t).track(vertex).velocity(t)
     return nearest_float(x), nearest_float(y)
 
 
 def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> Vector:
     """Return the velocity of the point of an edge that is nearest to a vertex of a body."""
-    if body._piece_after(t).translation is not None:
+    if body.exact_piece_after(t).translation is not None:
         return _translation_speed(body, t)
-    points, end = body._at(t), body.end_of_edge(edge)
+    points, end = body.exact_at(t), body.end_of_edge(edge)
     a, b = points[edge], points[end]
-    place = vertex[0]._at(t)[vertex[1]]
+    place = vertex[0].exact_at(t)[vertex[1]]
     dx, dy = b[0] - a[0], b[1] - a[1]
     along = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / (dx * dx + dy * dy)
     s = nearest_float(min(max(along, QQ(0)), QQ(1)))

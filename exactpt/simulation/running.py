@@ -79,8 +79,8 @@ class Run:
         self.mutable = mutable
         self.driver = Driver(mutable, observers=observers, budget=budget)
         scene = mutable.scene
-        self.begun = scene._start if begun is None else begun
-        self.margin = _margin_of(self.begun, scene._end)
+        self.begun = scene.exact_start if begun is None else begun
+        self.margin = _margin_of(self.begun, scene.exact_end)
         self.pending: deque[RunEvent] = deque()
         self.contact: Contact | None = None
         self.contacts = 0
@@ -95,7 +95,7 @@ class Run:
         self, until: Rational | None, respond: Response | None, margin: Rational | None
     ) -> Iterator[RunEvent]:
         """Yield the events up to and including a time, see `Simulation.run`."""
-        last = self.mutable.scene._end
+        last = self.mutable.scene.exact_end
         end = last if until is None else min(rational(until), last)
         grid = self.margin if margin is None else rational(margin)
         if grid <= 0:
@@ -123,7 +123,7 @@ class Run:
         with self.alone:
             while not self.pending and self.contact is None:
                 self._spend(0)
-                if not self._advance(self.mutable.scene._end, None, self.margin):
+                if not self._advance(self.mutable.scene.exact_end, None, self.margin):
                     break
             self._spend(len(self.pending))
             events = list(self.pending)
@@ -136,7 +136,7 @@ class Run:
             if self.contact is None:
                 self.check_whole()
                 with self._guarded():
-                    contact = self.driver.run(self.mutable.scene._end)
+                    contact = self.driver.run(self.mutable.scene.exact_end)
                     if contact is not None:
                         self.end_with(contact)
             return self.contact
@@ -223,7 +223,7 @@ class Run:
         if mutable.changes == changes:
             self.contact = contact
             with self._guarded():
-                driver.advance(mutable.scene._end)
+                driver.advance(mutable.scene.exact_end)
                 driver.meet()
 
     def end_record(self) -> None:
@@ -258,7 +258,7 @@ class Run:
             self.check_whole()
             with self._guarded():
                 self.pending.extend(how(self.mutable))
-            t = self.mutable.now._low
+            t = self.mutable.now.exact_low
             if self.log is not None:
                 self.log.changed(t, self.mutable.bodies)
             self.driver.change(t)
@@ -291,7 +291,7 @@ def begin(
 ) -> Run:
     """Return the run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
-        plan = plan_tiling(scene, tiling, scene._start)
+        plan = plan_tiling(scene, tiling, scene.exact_start)
         mutable = MutableScene(scene, None, Choice(tiling, plan.name, exact_only))
         run = Run(mutable, budget, observers)
         run.log = log

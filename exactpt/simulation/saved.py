@@ -239,9 +239,9 @@ def counts_from_json(data: Stored) -> dict[str, int]:
 def number_to_json(number: AlgebraicNumber) -> Data:
     """Return an algebraic number with its current isolating interval."""
     return {
-        "polynomial": [str(c) for c in number._polynomial],
-        "low": str(number._low),
-        "high": str(number._high),
+        "polynomial": [str(c) for c in number.exact_polynomial],
+        "low": str(number.exact_low),
+        "high": str(number.exact_high),
     }
 
 
@@ -293,8 +293,8 @@ def _time_from_json(data: Stored, vertices: Vertices) -> EventTime:
     else:
         a, b, c = data["of"].integers(-1, len(vertices.all) - 1, length=3)
         normalization = vertices.normalization
-        is_before = normalization.time(exact._high)[1] < low
-        if is_before or normalization.time(exact._low)[0] > high:
+        is_before = normalization.time(exact.exact_high)[1] < low
+        if is_before or normalization.time(exact.exact_low)[0] > high:
             raise data["exact"].refused("a time between low and high")
     return EventTime(low, high, a, b, c, exact, crossing)
 

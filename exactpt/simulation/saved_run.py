@@ -71,14 +71,14 @@ def run_from_json(data: Stored, scene: Scene, budget: Budget) -> Run:
     choice = Choice(data["tiling"].text(known()), data["name"].text(known()), exact_only)
     kinetic = None
     if not state.is_null:
-        kinetic = tiling_from_json(state, scene.bodies, scene._end, exact_only=exact_only)
+        kinetic = tiling_from_json(state, scene.bodies, scene.exact_end, exact_only=exact_only)
         reasons = counts_from_json(counts["reasons"])
         before = Counts(counts["exact"].integer(0), counts["filtered"].integer(0), reasons)
         kinetic.vertices.counters.set(before)
     elif contact.is_null:
         raise state.refused("a tiling, since bodies do not touch at the start")
     begun = data["begun"].rational()
-    if begun > scene._start:
+    if begun > scene.exact_start:
         raise data["begun"].refused("a time up to the start of the scene")
     mutable = MutableScene(scene, kinetic, choice, counts["changes"].integer(0))
     run = Run(mutable, budget, begun=begun)

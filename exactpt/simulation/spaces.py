@@ -33,7 +33,7 @@ class SpaceCache:
         """Return the free space at a time, see `Simulation.space`."""
         t = _now(kinetic) if at is None else _before_next_event(kinetic, rational(at))
         now = kinetic.certifier.now
-        if self._space is None or self._now is not now or self._space._at != t:
+        if self._space is None or self._now is not now or self._space.exact_at != t:
             from exactpt.query.space import FreeSpace
 
             self._now, self._space = now, FreeSpace(kinetic, t)
@@ -74,7 +74,7 @@ def _now(kinetic: Tiling) -> QQ:
             f"now, t = {float(now)!r}, is not rational: give a rational time after it and before "
             "the next event, simulation.space(at=...)"
         )
-    return now._low
+    return now.exact_low
 
 
 def _before_next_event(kinetic: Tiling, t: QQ) -> QQ:

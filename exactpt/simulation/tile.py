@@ -36,12 +36,12 @@ def tile_at(
         TimeRangeError: if the time is outside the span, or not before the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if not scene._start <= at <= scene._end:
+    if not scene.exact_start <= at <= scene.exact_end:
         raise TimeRangeError(
             f"t = {show(at)} is outside the time span "
-            f"from {show(scene._start)} to {show(scene._end)}"
+            f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
         )
-    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene._start).name, at)
+    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene.exact_start).name, at)
     simulation = Simulation(
         scene,
         tiling=tiling if by_running else tiling_for_contact(scene, AUTO),

@@ -94,7 +94,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
 def shown_time(time: AlgebraicNumber) -> str:
     """Return an exact time in words."""
     if time.is_rational:
-        return str(time._low)
+        return str(time.exact_low)
     return f"{float(time)!r}, a root of {list(time.polynomial)}"
 
 

@@ -129,7 +129,7 @@ def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | N
     if low == high:
         return AlgebraicNumber(low)
     mover, other = (question.a, question.b)[:: 1 if contacts.body[k] == 0 else -1]
-    return root_between(_incidence(mover, other, contacts, k)._integer(), low, high)  # noqa: SLF001
+    return root_between(_incidence(mover, other, contacts, k).exact_integers(), low, high)
 
 
 def root_between(f: Sequence[int], low: QQ, high: QQ) -> AlgebraicNumber | None:

@@ -119,9 +119,9 @@ class Clock:
                 raise AuditError("the next failure in the queue is not after the current event")
             later = rational_between(now, following)
         for k in range(MAX_TIMES):
-            width = (later - now._low) * power_of_two(-(1 << k))
+            width = (later - now.exact_low) * power_of_two(-(1 << k))
             now.refine_to(width / 2)
-            yield rational_between(now, AlgebraicNumber(now._high + width / 2))
+            yield rational_between(now, AlgebraicNumber(now.exact_high + width / 2))
 
     def end_of_piece(self, moving: MovingBody) -> EventTime | None:
         """Return the end of a body's current piece of motion; None if it is after the time span."""

@@ -242,7 +242,7 @@ class Engine(Tiling):
         if moving.until is None:
             raise AuditError(f"body {i} has no next piece")
         changes = (
-            moving.until in moving.body._breakpoints
+            moving.until in moving.body.exact_breakpoints
         )  # otherwise only the directions of its infinitesimal displacements do
         self.vertices.enter_piece(i, moving.until)
         certify_piece(self.clock, moving, i)

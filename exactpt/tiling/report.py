@@ -75,7 +75,7 @@ def _may_bend(moving: MovingBody) -> bool:
     body = moving.body
     if moving.is_tiled or body.has_rings or body.size < 3 or not body.closed:
         return moving.is_tiled or body.size > 2
-    points = body._at(moving.since)
+    points = body.exact_at(moving.since)
     sides = (orientation(points[i - 2], points[i - 1], p) for i, p in enumerate(points))
     return {1, -1}.issubset(sides)
 

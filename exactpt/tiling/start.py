@@ -95,7 +95,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
         InputError: if the tiling does not exist, is for points and a body is not one, or a body
             is rounded.
     """
-    bodies, end = scene.bodies, scene._end
+    bodies, end = scene.bodies, scene.exact_end
     refuse_untileable(bodies)
     made: list[Vertices] = []
 

@@ -59,7 +59,7 @@ def is_true(scene: Scene, lines: Lines) -> bool:
     named = [{int(w) for w in row[1:]} for row in rows if row[0] == "between"]
     high = None if rows[-1] == ["none"] else rational(rows[-1][-3])
     bodies = [body.with_radius(body.radius + far / 2) for body in scene.bodies]
-    end = max(until if high is None else high, start + (scene._end - scene._start) / 1000)
+    end = max(until if high is None else high, start + (scene.exact_end - scene.exact_start) / 1000)
     first: AlgebraicNumber | None = None
     for i, j in combinations(range(len(bodies)), 2):
         if any({i, j} <= group for group in groups) or (named and {i, j} not in named):

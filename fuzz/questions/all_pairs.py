@@ -36,32 +36,32 @@ from fuzz.questions.all_pairs_radii import (
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
     """Return the first contact in the scene's closed time span; None if there is none."""
-    start = AlgebraicNumber(scene._start)
+    start = AlgebraicNumber(scene.exact_start)
     initial_pairs = _overlapping_at_start(scene)
     if initial_pairs:
-        tracks = [b._piece_after(scene._start).tracks for b in scene.bodies]
+        tracks = [b.exact_piece_after(scene.exact_start).tracks for b in scene.bodies]
         return contact_of(scene, start, touches_at(scene, tracks, start), initial_pairs)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
         for j in range(i if _has_touching_rings(scene, i) else i + 1):
-            until = scene._end if best is None else best._high
+            until = scene.exact_end if best is None else best.exact_high
             time = _first_between(scene, i, j, until)
             if time is not None and (best is None or time.compare(best) < 0):
                 best = time
     if best is None:
         return None
-    tracks = [tracks_just_before(body, best, scene._start) for body in scene.bodies]
+    tracks = [tracks_just_before(body, best, scene.exact_start) for body in scene.bodies]
     return contact_of(scene, best, touches_at(scene, tracks, best))
 
 
 def _reach(a: Body, b: Body) -> QQ:
-    return a._radius + b._radius
+    return a.exact_radius + b.exact_radius
 
 
 def _has_touching_rings(scene: Scene, i: int) -> bool:
     """Return True if a vertex of a body is on an edge of another of its rings at the start."""
     body = scene.bodies[i]
-    points = body._at(scene._start)
+    points = body.exact_at(scene.exact_start)
     return any(
         segments_meet(points[v], points[v], points[a], points[b])
         for ring in body.rings
@@ -74,10 +74,12 @@ def _has_touching_rings(scene: Scene, i: int) -> bool:
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
     """Return the first time in (start, until] at which i and j touch (i == j: itself)."""
     a, b = scene.bodies[i], scene.bodies[j]
-    ends = sorted({t for t in (*a._breakpoints, *b._breakpoints) if scene._start < t < until})
-    begin = scene._start
+    ends = sorted(
+        {t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if scene.exact_start < t < until}
+    )
+    begin = scene.exact_start
     for end in (*ends, until):
-        p, q = a._piece_after(begin).tracks, b._piece_after(begin).tracks
+        p, q = a.exact_piece_after(begin).tracks, b.exact_piece_after(begin).tracks
         if _reach(a, b):
             met = None if i == j else first_at_distance(a, b, p, q, (begin, end))
             if met is not None:
@@ -89,7 +91,7 @@ def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber |
             pairs += _vertex_edge_pairs(q, p, a.edges, same=False)
         best: AlgebraicNumber | None = None
         for v, u, w in pairs:
-            limit = end if best is None else best._high
+            limit = end if best is None else best.exact_high
             time = next(_meetings(v, u, w, AlgebraicNumber(begin), limit), None)
             if time is not None and (best is None or time.compare(best) < 0):
                 best = time
@@ -150,8 +152,8 @@ def touches_at(
     bodies = scene.bodies
     for i, j in combinations(range(len(bodies)), 2):
         reach = _reach(bodies[i], bodies[j])
-        overlap = time.compare_rational(scene._start) == 0 and (
-            core_distance(bodies[i], bodies[j], scene._start) < reach**2
+        overlap = time.compare_rational(scene.exact_start) == 0 and (
+            core_distance(bodies[i], bodies[j], scene.exact_start) < reach**2
         )
         if reach and not overlap:
             yield from touches_at_distance(bodies, tracks, (i, j), time)
@@ -177,12 +179,12 @@ def touches_at(
 
 
 def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
-    points = [body._at(scene._start) for body in scene.bodies]
+    points = [body.exact_at(scene.exact_start) for body in scene.bodies]
     found = []
     for j, b in enumerate(scene.bodies):
         for i, a in enumerate(scene.bodies[:j]):
             if _reach(a, b):
-                if core_distance(a, b, scene._start) <= _reach(a, b) ** 2:
+                if core_distance(a, b, scene.exact_start) <= _reach(a, b) ** 2:
                     found.append((i, j))
                 continue
             crossing = any(

@@ -28,7 +28,7 @@ Vector: TypeAlias = "tuple[IntPoly, IntPoly, IntPoly]"
 
 def core_distance(a: Body, b: Body, t: QQ) -> QQ:
     """Return the squared distance of the cores of two bodies at a rational time."""
-    p, q = a._at(t), b._at(t)
+    p, q = a.exact_at(t), b.exact_at(t)
     if _is_in(b, q, a, p) or _is_in(a, p, b, q):
         return QQ(0)
     return min(
@@ -82,7 +82,7 @@ def first_at_distance(
         q: those of the second.
         span: the start and the end.
     """
-    squared = (a._radius + b._radius) ** 2
+    squared = (a.exact_radius + b.exact_radius) ** 2
     begin, end = AlgebraicNumber(span[0]), span[1]
     found: list[AlgebraicNumber] = []
     for u, v in product(p, q):
@@ -101,7 +101,7 @@ def touches_at_distance(
 ) -> Iterator[Incidence]:  # fmt: skip
     """Yield the pairs of features of bodies i < j that are at distance R at a time."""
     i, j = ij
-    squared = (bodies[i]._radius + bodies[j]._radius) ** 2
+    squared = (bodies[i].exact_radius + bodies[j].exact_radius) ** 2
     p, q = tracks[i], tracks[j]
     for (k, u), (l, v) in product(enumerate(p), enumerate(q)):
         if time.sign_of(_excess(_squared(_from(u, v)), squared)) == 0:

@@ -28,8 +28,8 @@ def wrong_intervals(random: Random) -> tuple[Scene, str, str | None]:
     gap = clearance(scene, a.name, b.name)
     d = _asked(random, gap)
     found = [(i.start, i.end) for i in gap.below(fraction(d))]
-    squared = (d + a._radius + b._radius) ** 2
-    expected = reference.intervals_within(a, b, scene._start, scene._end, squared)
+    squared = (d + a.exact_radius + b.exact_radius) ** 2
+    expected = reference.intervals_within(a, b, scene.exact_start, scene.exact_end, squared)
     moments = sum(start == end for start, end in expected)
     kind = f"{len(expected)} intervals, {moments} of them a single time"
     return scene, kind, None if found == expected else f"below {d}: {found}, not {expected}"
@@ -38,7 +38,7 @@ def wrong_intervals(random: Random) -> tuple[Scene, str, str | None]:
 def _asked(random: Random, gap: Clearance) -> QQ:
     """Return a distance: the least one if it is rational, in half of the cases."""
     squared = gap.minimum.squared.simplified()
-    root = exact_square_root(squared._low) if squared.is_rational else None
+    root = exact_square_root(squared.exact_low) if squared.is_rational else None
     if root is not None and random.random() < 0.5:
         least: QQ = root - QQ(gap.radius)
         if least >= 0:

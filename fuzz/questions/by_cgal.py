@@ -86,8 +86,11 @@ class _Judge:
         at = gap.minimum.time if time is None else time
         self.root(at)
         a, b = scene.bodies
-        since = max([t for t in (*a._breakpoints, *b._breakpoints) if t < at], default=scene._start)
-        p, q = reference.tracks(a, b, max(since, scene._start))
+        since = max(
+            [t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if t < at],
+            default=scene.exact_start,
+        )
+        p, q = reference.tracks(a, b, max(since, scene.exact_start))
         if reference.is_within(_Instant(self, at), a, b, p, q, squared) != (time is not None):
             raise _DifferError(f"within {squared} at {at!r}: not so by CGAL")
 
@@ -124,6 +127,6 @@ def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
     yield piece.end
     n, d = _polynomials(piece)
     slope = subtract(multiply(derivative(n), d), multiply(n, derivative(d)))
-    for root in roots_after(slope, piece.start, piece.end._high) if slope else ():
+    for root in roots_after(slope, piece.start, piece.end.exact_high) if slope else ():
         if root.time < piece.end:
             yield root.time

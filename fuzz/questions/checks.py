@@ -100,7 +100,7 @@ def _distance(random: Random) -> Checked:
     squared = _asked(random, scene, gap)
     time = first_within(scene, "a", "b", distance_squared=squared)
     a, b = scene.bodies
-    expected = reference.first_within(a, b, scene._start, scene._end, squared)
+    expected = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
     fault = None
     if time != expected:
         fault = f"first_within {squared}: {time}, not {expected}"
@@ -116,21 +116,21 @@ def _asked(random: Random, scene: Scene, gap: Clearance) -> QQ:
     choices = [QQ(random.choice([0, 1, 2, 4, 5]), random.choice([1, 2, 9]))]
     choices.append(rational(gap.squared(random.randint(int(scene.start), int(scene.end)))))
     if least.is_rational:
-        choices.append(least._low)
+        choices.append(least.exact_low)
     return random.choice(choices)
 
 
 def _wrong_distance(random: Random, scene: Scene, gap: Clearance) -> str | None:
     """Return the fault of distances at times, the pieces, or the minimum."""
-    ends = AlgebraicNumber(scene._start), AlgebraicNumber(scene._end)
+    ends = AlgebraicNumber(scene.exact_start), AlgebraicNumber(scene.exact_end)
     if (gap.pieces[0].start, gap.pieces[-1].end) != ends:
         return "the pieces do not cover the time span"
     for before, after in pairwise(gap.pieces):
         if before.end != after.start or _value(before, before.end) != _value(after, after.start):
             return f"a jump of the distance at {before.end}"
-    span = scene._end - scene._start
-    samples = {*(scene._start + span * k / 8 for k in range(9))}
-    samples.add(scene._start + span * random.randint(0, 997) / 997)
+    span = scene.exact_end - scene.exact_start
+    samples = {*(scene.exact_start + span * k / 8 for k in range(9))}
+    samples.add(scene.exact_start + span * random.randint(0, 997) / 997)
     least = gap.minimum.squared
     for t in sorted(samples):
         expected, features = reference.nearest(scene.bodies[0], scene.bodies[1], t)
@@ -149,17 +149,23 @@ def _wrong_minimum(scene: Scene, gap: Clearance) -> str | None:
     a, b = scene.bodies
     squared = squared.simplified()
     if squared.is_rational:
-        first = reference.first_within(a, b, scene._start, scene._end, squared._low)
+        first = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared.exact_low)
         if first != time:
             return f"the minimum is first at {first}, not at {time}"
-        below = squared._low - QQ(1, 10**30)
+        below = squared.exact_low - QQ(1, 10**30)
     else:
-        while squared._low <= 0 or squared._high - squared._low > QQ(1, 10**30):
+        while squared.exact_low <= 0 or squared.exact_high - squared.exact_low > QQ(1, 10**30):
             squared.refine()
-        if reference.first_within(a, b, scene._start, scene._end, squared._high) is None:
+        if (
+            reference.first_within(a, b, scene.exact_start, scene.exact_end, squared.exact_high)
+            is None
+        ):
             return f"the minimum {squared} is never reached"
-        below = squared._low
-    if below >= 0 and reference.first_within(a, b, scene._start, scene._end, below) is not None:
+        below = squared.exact_low
+    if (
+        below >= 0
+        and reference.first_within(a, b, scene.exact_start, scene.exact_end, below) is not None
+    ):
         return f"less than the minimum {squared} is reached"
     return None
 
@@ -180,7 +186,7 @@ def _approach(random: Random) -> Checked:
     found = first_within(scene, distance_squared=squared)
     times = []
     for a, b in combinations(scene.bodies, 2):
-        time = reference.first_within(a, b, scene._start, scene._end, squared)
+        time = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
         if time is not None:
             times.append((time, (a.name, b.name)))
     least = min((time for time, _ in times), default=None)
@@ -198,7 +204,7 @@ def _intervals(random: Random) -> Checked:
     scene = meeting_scene(random)
     a, b = scene.bodies
     found = [(i.start, i.end) for i in contact_intervals(scene, a.name, b.name)]
-    expected = reference.contact_intervals(a, b, scene._start, scene._end)
+    expected = reference.contact_intervals(a, b, scene.exact_start, scene.exact_end)
     touches = sum(start == end for start, end in found)
     kind = f"{len(found)} intervals, {touches} of them touches"
     return Checked(scene, kind, None if found == expected else f"{found}, not {expected}")
@@ -213,7 +219,7 @@ def _after_start(random: Random) -> Checked:
     if contact is None:
         fault = None if expected is None else f"no new contact, not {expected}"
         return Checked(scene, "none", fault)
-    found = contact._touches({body.name: i for i, body in enumerate(scene.bodies)})
+    found = contact.exact_incidences({body.name: i for i, body in enumerate(scene.bodies)})
     pairs = {_ordered(touch) for touch in found}
     kind = f"{contact.kind}, {'again' if touching else 'first'}"
     fault = None
@@ -232,7 +238,7 @@ def _touches(
     scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]]
 ) -> list[Incidence]:
     """Return the incidences at a time of the pairs of bodies, from the definition."""
-    tracks = [tracks_just_before(body, t, scene._start) for body in scene.bodies]
+    tracks = [tracks_just_before(body, t, scene.exact_start) for body in scene.bodies]
     return sorted(touch for touch in touches_at(scene, tracks, t) if _ordered(touch) in pairs)
 
 
@@ -242,13 +248,13 @@ def _chosen(random: Random) -> Checked:
 
 
 def _touching(scene: Scene) -> list[tuple[int, int]]:
-    start = AlgebraicNumber(scene._start)
+    start = AlgebraicNumber(scene.exact_start)
     pairs = combinations(range(len(scene.bodies)), 2)
     return [
         (i, j)
         for i, j in pairs
         for a, b in [(scene.bodies[i], scene.bodies[j])]
-        if reference.meet_at(start, a, b, *reference.tracks(a, b, scene._start))
+        if reference.meet_at(start, a, b, *reference.tracks(a, b, scene.exact_start))
     ]
 
 

@@ -22,9 +22,9 @@ def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
     kind = random.choice(["since", "ignoring", "planner"])
     bodies = list(scene.bodies)
     group = random.sample(bodies, random.randint(1, len(bodies) - 1))
-    start = scene._start
+    start = scene.exact_start
     if kind == "since":
-        start += (scene._end - scene._start) * random.randint(0, 7) / 8
+        start += (scene.exact_end - scene.exact_start) * random.randint(0, 7) / 8
         group, contact = [], first_contact(scene, since=start)
     elif kind == "ignoring":
         contact = first_contact(scene, ignoring=[[body.name for body in group]])
@@ -44,7 +44,7 @@ def _first_of_pairs(scene: Scene, ignored: set[frozenset[str]], start: QQ) -> Fo
     for two in combinations(scene.bodies, 2):
         if frozenset(body.name for body in two) in ignored:
             continue
-        found = _answer(first_contact_allpairs(scene_of(two, start, scene._end)))
+        found = _answer(first_contact_allpairs(scene_of(two, start, scene.exact_end)))
         if found is None:
             continue
         if best is None or found[0] < best[0]:

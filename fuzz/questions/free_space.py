@@ -105,9 +105,11 @@ def _space(random: Random, most: int = 60) -> tuple[Scene, str, FreeSpace]:
             continue
         tiling = random.choice(names)
         simulation = Simulation(scene, tiling=tiling)
-        at = scene._start + (scene._end - scene._start) * QQ(random.choice([0, 0, 1, 2, 3]), 8)
+        at = scene.exact_start + (scene.exact_end - scene.exact_start) * QQ(
+            random.choice([0, 0, 1, 2, 3]), 8
+        )
         if contact is not None and contact.time.compare_rational(at) <= 0:
-            at = scene._start
+            at = scene.exact_start
         for _ in simulation.run(until=fraction(at)):
             pass
         return scene, tiling, simulation.space(at=fraction(at))

@@ -42,7 +42,9 @@ def wrong_clearance(random: Random) -> tuple[Scene, str, str | None]:
     gap = clearance(scene, a.name, b.name)
     least = gap.minimum.squared
     for _ in range(TIMES):
-        t = scene._start + (scene._end - scene._start) * QQ(random.randint(0, 60), 60)
+        t = scene.exact_start + (scene.exact_end - scene.exact_start) * QQ(
+            random.randint(0, 60), 60
+        )
         expected, _ = reference.nearest(a, b, t)
         found = QQ(gap.squared(fraction(t)))
         there = QQ(distance(scene, a.name, b.name, at=fraction(t)).core_squared)

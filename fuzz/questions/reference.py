@@ -39,10 +39,10 @@ Interval: TypeAlias = tuple[AlgebraicNumber, AlgebraicNumber]
 
 def pieces(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[tuple[QQ, QQ, Tracks, Tracks]]:
     """The time span from one change of a motion to the next, with the trajectories."""
-    cuts = {t for body in (a, b) for t in body._breakpoints if start < t < end}
+    cuts = {t for body in (a, b) for t in body.exact_breakpoints if start < t < end}
     times = [start, *sorted(cuts), end]
     for begin, until in pairwise(times):
-        yield begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks
+        yield begin, until, a.exact_piece_after(begin).tracks, b.exact_piece_after(begin).tracks
 
 
 def critical_times(polynomials: Iterable[IntPoly], begin: QQ, until: QQ) -> list[AlgebraicNumber]:
@@ -174,7 +174,7 @@ def _intervals(
 
 def tracks(a: Body, b: Body, t: QQ) -> tuple[Tracks, Tracks]:
     """The trajectories just after a time."""
-    return a._piece_after(t).tracks, b._piece_after(t).tracks
+    return a.exact_piece_after(t).tracks, b.exact_piece_after(t).tracks
 
 
 def gap(u: Track, v: Track) -> Vector:
@@ -253,7 +253,7 @@ def nearest(a: Body, b: Body, t: QQ) -> tuple[QQ, set[tuple[Place, Place]]]:
 
     A place is ("v", i), or ("e", i) for the interior of an edge.
     """
-    p, q = a._at(t), b._at(t)
+    p, q = a.exact_at(t), b.exact_at(t)
     found: list[tuple[QQ, tuple[Place, Place]]] = []
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         found.append(((u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2, (("v", i), ("v", j))))

@@ -44,12 +44,14 @@ def first_new_contact(
 
 
 def _of_two(scene: Scene, i: int, j: int) -> AlgebraicNumber | None:
-    return new_contact(scene.bodies[i], scene.bodies[j], scene._start, scene._end)
+    return new_contact(scene.bodies[i], scene.bodies[j], scene.exact_start, scene.exact_end)
 
 
 def _of_one(scene: Scene, i: int) -> AlgebraicNumber | None:
     """When a body first touches itself."""
-    contact = first_contact_allpairs(scene_of([scene.bodies[i]], scene._start, scene._end))
+    contact = first_contact_allpairs(
+        scene_of([scene.bodies[i]], scene.exact_start, scene.exact_end)
+    )
     return None if contact is None else contact.time
 
 
@@ -73,11 +75,11 @@ def new_contact(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | None:
 
 def overlap(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two bodies overlap at a rational time."""
-    p, q = _sheared(a._at(t), b._at(t))
+    p, q = _sheared(a.exact_at(t), b.exact_at(t))
     e = [(p[i], p[j]) for i, j in edges_of(a)]
     f = [(q[i], q[j]) for i, j in edges_of(b)]
     if not a.has_interior and not b.has_interior:
-        return chains_cross(a._at(t), b._at(t))
+        return chains_cross(a.exact_at(t), b.exact_at(t))
     if _is_point_on(e, f) or _is_point_on(f, e):
         return False
     return any(_overlap_at(x, a, e, b, f) for x in _lines(e, f))

@@ -45,8 +45,8 @@ def rounded_pair(random: Random) -> Scene:
 def wrong_answer(random: Random, scene: Scene) -> str | None:
     """Return a difference of a rounded pair from the definition; None without one."""
     a, b = scene.bodies
-    start, end = scene._start, scene._end
-    reach = a._radius + b._radius
+    start, end = scene.exact_start, scene.exact_end
+    reach = a.exact_radius + b.exact_radius
     found = [(i.start, i.end) for i in contact_intervals(scene, a.name, b.name)]
     expected = reference.intervals_within(a, b, start, end, reach**2)
     if found != expected:

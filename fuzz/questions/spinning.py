@@ -114,14 +114,14 @@ def _compared(scene: Scene, truth: Truth, bounds: EnclosedContact | None, time: 
     if bounds is None:
         return Case("never", None if time is None else f"none, but they meet at {time}")
     tiny = mpmath.mpf(10) ** -(DIGITS - 20)
-    bounds.low.refine_to(scene._end / 10**DIGITS)
+    bounds.low.refine_to(scene.exact_end / 10**DIGITS)
     if time is not None and time < real(bounds.low.low) - tiny:
         return Case("too late", f"low {float(bounds.low)!r}, but they meet at {time}")
     if bounds.high is None:
         if time is not None and _allowed(scene, truth, bounds, time) is not None:
             return Case("not certain", f"no upper bound, but they meet at {time}")
         return Case("may graze, and does not" if time is None else "may graze, and meets", None)
-    bounds.high.refine_to(scene._end / 10**DIGITS)
+    bounds.high.refine_to(scene.exact_end / 10**DIGITS)
     high = real(bounds.high.high)
     if time is None or time > high + tiny:
         return Case("too early", f"high {float(bounds.high)!r}, but they meet at {time}")

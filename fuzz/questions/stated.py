@@ -181,7 +181,7 @@ def _moved_path(body: Body, move: Point | None) -> Body:
     motion = body.motion
     if move is None or not isinstance(motion, PosePath):
         return body
-    poses = [(x + move[0], y + move[1], angle) for x, y, angle in motion._poses]
+    poses = [(x + move[0], y + move[1], angle) for x, y, angle in motion.exact_poses]
     fitted = Fraction(1, 1000)  # of polynomials of high degrees
     return body.with_motion(PosePath(motion.times, poses, error=fitted, place_error=fitted))
 

@@ -220,7 +220,7 @@ def dissected(body: Body) -> list[Body]:
     """Return simple convex bodies whose union is a body that keeps its shape."""
     if not body.has_rings:
         return [body]
-    place = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+    place = [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices]
     cells = _cells([[[place[i] for i in ring] for ring in rings] for rings in body.parts])
     assert cells is not None  # noqa: S101 - the body is valid
     return [
@@ -267,7 +267,7 @@ def touching_pair(random: Random) -> Scene:
     while True:
         parts = touching_parts(random, (QQ(0), QQ(0)))
         a = Body("a", parts=as_parts(parts), motion=_motion(random), radius=_radius(random))
-        if a._ring_touches:
+        if a.exact_ring_touches:
             break
     if random.random() < 0.3:
         x, y = random.randint(-2, 6), random.randint(-2, 6)
@@ -301,10 +301,10 @@ def _thing(random: Random, around: Body) -> list[Point]:
     x, y = QQ(random.choice([-6, -5, 5, 6])), QQ(random.randint(-10, 10), 2)
     kind = random.randrange(5)
     if kind == 0:
-        x, y = random.choice(around._ring_touches)
+        x, y = random.choice(around.exact_ring_touches)
     holes = [hole for _, *holes in around.parts for hole in holes]
     if kind > 1 and holes:
-        place = around._at(QQ(0))
+        place = around.exact_at(QQ(0))
         x, y = middle_of([place[i] for i in random.choice(holes)])
     half = QQ(1, random.choice([4, 6, 7]))
     shape = random.choice(

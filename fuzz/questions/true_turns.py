@@ -80,7 +80,7 @@ class _Turning:
             self.span = times[0], times[-1]
             self.pieces = [
                 _Piece(begin, _coefficients(x, y), [c.real for c in _coefficients(angle, angle)])
-                for begin, (x, y, angle) in zip(times, motion._poses, strict=False)
+                for begin, (x, y, angle) in zip(times, motion.exact_poses, strict=False)
             ]
             long = float(max(b - a for a, b in pairwise(times)))
         elif isinstance(motion, Translation):

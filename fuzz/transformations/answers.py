@@ -308,8 +308,8 @@ def _check_apart(side: Side, d: QQ) -> None:
     for k, a in enumerate(bodies):
         for b in bodies[:k]:
             if side.groups[a.name] == side.groups[b.name]:
-                reach = a._radius + b._radius + d
-                if nearest(a, b, side.scene._start)[0] <= reach**2:
+                reach = a.exact_radius + b.exact_radius + d
+                if nearest(a, b, side.scene.exact_start)[0] <= reach**2:
                     raise NotAskedError
 
 
@@ -360,7 +360,7 @@ def _arrays(side: Side, case: Case) -> Answer:
     if case.d < 1:
         bodies.reverse()
     vertices = [tuple(map(float, v)) for body in bodies for v in body.at(side.scene.start)]
-    at = side.scene._start
+    at = side.scene.exact_start
     moved = [_paths(body, at) for body in bodies]
     found = first_contacts(
         vertices, [0, bodies[0].size, len(vertices)], [(0, 1)], coefficients=_padded(moved),

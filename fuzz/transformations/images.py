@@ -235,7 +235,9 @@ def _permuted(scene: Scene, random: Random) -> Image | None:
 
 def _joined(scene: Scene, random: Random) -> Image | None:
     """Make one body of two that move alike and lie apart, one in a hole of the other perhaps."""
-    pairs = [(a, b) for a, b in combinations(scene.bodies, 2) if move_alike(a, b, scene._start)]
+    pairs = [
+        (a, b) for a, b in combinations(scene.bodies, 2) if move_alike(a, b, scene.exact_start)
+    ]
     if not pairs:
         return None
     two = random.choice(pairs)
@@ -256,7 +258,7 @@ def move_alike(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two rigid bodies with an interior have one motion and lie apart."""
     if a.motion != b.motion or a.radius != b.radius or not (_is_solid(a) and _is_solid(b)):
         return False
-    return nearest(a, b, t)[0] > (a._radius + b._radius) ** 2
+    return nearest(a, b, t)[0] > (a.exact_radius + b.exact_radius) ** 2
 
 
 def _is_solid(body: Body) -> bool:
@@ -282,7 +284,7 @@ def _separated(scene: Scene, random: Random) -> Image | None:
             rings[name], groups[name] = [_ring(one, ring) for ring in part], one.name
             bodies.append(_of_parts(name, one, [[[one.vertices[i] for i in r] for r in part]]))
     new = [body for body in bodies if groups[body.name] == one.name]
-    if not all(move_alike(a, b, scene._start) for a, b in combinations(new, 2)):
+    if not all(move_alike(a, b, scene.exact_start) for a, b in combinations(new, 2)):
         return None
     return Image(untouched(scene, groups), _side(bodies, rings, scene, groups))
 
@@ -297,7 +299,7 @@ def _mirrored(scene: Scene, random: Random) -> Image:
 
 def _backwards(scene: Scene, random: Random) -> Image:  # noqa: ARG001
     """Let time run from the end to the start."""
-    return _in_mirror(scene, Mirror(turning=scene._start + scene._end))
+    return _in_mirror(scene, Mirror(turning=scene.exact_start + scene.exact_end))
 
 
 def _in_mirror(scene: Scene, mirror: Mirror) -> Image:

@@ -107,7 +107,7 @@ def _with_twin(random: Random, scene: Scene) -> Scene:
         x, y = random.randint(-6, 6), random.randint(-6, 6)
         vertices = [(x + u, y + v) for u, v in random.choice(TWINS)]
         twin = Body("twin", vertices, like.motion, radius=like.radius)
-        if move_alike(like, twin, scene._start):
+        if move_alike(like, twin, scene.exact_start):
             return Scene([*scene.bodies, twin], (scene.start, scene.end))
     return scene
 
@@ -116,11 +116,11 @@ def _case(random: Random, image: Image) -> Case:
     scene = image.old.scene
     groups = sorted({image.old.groups[body.name] for body in scene.bodies})
     two = random.sample(groups, 2) if len(groups) > 1 else [groups[0], groups[0]]
-    span = scene._end - scene._start
+    span = scene.exact_end - scene.exact_start
     p, q, r = ((QQ(random.randint(-6, 9), 2), QQ(random.randint(-6, 9), 2)) for _ in range(3))
     return Case(
         groups=(two[0], two[1]),
-        t=scene._start + span * random.randint(0, 8) / 8,
+        t=scene.exact_start + span * random.randint(0, 8) / 8,
         d=QQ(random.choice([0, 1, 1, 2]), random.choice([1, 2, 3])),
         points=(p, q, r),
         tiling=random.choice(TILINGS),

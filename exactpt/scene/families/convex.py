@@ -94,7 +94,7 @@ def keyframed(rng: Random) -> Scene:
         outline = convex_polygon(rng, c, 40, 3)[:size]
         times = sorted(rng.sample(range(-1, 5), rng.randint(1, 3)))
         body = _shaken(rng, f"b{i}", outline, times)
-        while first_self_touch(body._at(QQ(0)), closed=True) is not None:
+        while first_self_touch(body.exact_at(QQ(0)), closed=True) is not None:
             body = _shaken(rng, f"b{i}", outline, times)
         bodies.append(body)
     return Scene(bodies, (0, 4))

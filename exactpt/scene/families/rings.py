@@ -147,8 +147,8 @@ def touching_parts(rng: Random, center: Point) -> list[list[list[Point]]]:
         body = Body("b", parts=as_parts(added))
         if not is_valid(body):
             continue
-        if len(body._ring_touches) > touches or rng.random() < 0.1:
-            parts, touches = added, len(body._ring_touches)
+        if len(body.exact_ring_touches) > touches or rng.random() < 0.1:
+            parts, touches = added, len(body.exact_ring_touches)
     return parts
 
 

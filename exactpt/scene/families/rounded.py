@@ -34,7 +34,7 @@ def kissing_discs(rng: Random) -> Scene:
     for i in range(k):
         dx, dy, length = rng.choice(TRIPLES)
         off = rng.choice([QQ(0), QQ(0), tiny, -tiny])
-        radius = length - bodies[0]._radius + off
+        radius = length - bodies[0].exact_radius + off
         if radius < 0:
             continue
         sx, sy = rng.choice([1, -1]), rng.choice([1, -1])
@@ -59,7 +59,7 @@ def sliding_capsules(rng: Random) -> Scene:
     for i in range(rng.randint(1, 3)):
         radius = rng.choice([QQ(1), QQ(1, 3), QQ(2), QQ(0)])
         gap = rng.choice([QQ(0), QQ(0), tiny, -tiny])
-        y = floor._radius + radius + gap
+        y = floor.exact_radius + radius + gap
         left, length = -8 - 4 * i, rng.randint(0, 2)
         shape = [(QQ(left), y), (QQ(left + length), y)][: 2 if length else 1]
         if rng.random() < 0.5:

@@ -117,7 +117,7 @@ def test_all_pairs_in_order():
 
 def compare(scene, a, b):
     found = contact_intervals(scene, a.name, b.name)
-    expected = reference.contact_intervals(a, b, scene._start, scene._end)
+    expected = reference.contact_intervals(a, b, scene.exact_start, scene.exact_end)
     assert [(i.start, i.end) for i in found] == expected
     return len(found)
 

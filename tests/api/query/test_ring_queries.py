@@ -22,7 +22,7 @@ def scene(*, deforms=False):
 @pytest.fixture(params=TILINGS)
 def space(request):
     made = scene(deforms=request.param == "lazy")
-    return FreeSpace(start_tiling(made, request.param, made._start), made._start)
+    return FreeSpace(start_tiling(made, request.param, made.exact_start), made.exact_start)
 
 
 def test_places(space):
@@ -89,7 +89,7 @@ def test_the_loop_around_a_body_with_holes_leads_around_its_outline():
     bodies = [Body("frame", FRAME, holes=[HOLE]), Body("in", [(5, 5)]), Body("out", [(6, 20)])]
     made = Scene(bodies, (0, 1))
     for tiling in TILINGS:
-        space = FreeSpace(start_tiling(made, tiling, made._start), made._start)
+        space = FreeSpace(start_tiling(made, tiling, made.exact_start), made.exact_start)
         assert space.relative_hull("frame") == [("frame", v) for v in range(4)]
         assert space.relative_hull("in") == [("in", 0)]
 

@@ -56,7 +56,7 @@ def test_doubles_stay_doubles():
     body = Body(
         "b", [(0.5, 0.0), (9.0, 0.0), (0.0, 9.0)], holes=[[(1.0, 1.0), (2.0, 1.0), (1.0, 2.0)]]
     )
-    assert not body._shape.is_exact
+    assert not body.exact_shape.is_exact
     Scene([body])
     assert body.at(0)[3] == (1, 1)
 

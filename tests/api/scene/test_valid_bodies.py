@@ -78,7 +78,7 @@ def given(parts):
 def test_a_valid_body_is_accepted_at_every_door(name):
     body = Body("b", parts=given(VALID[name]))
     scene = Scene([body], (0, 1))
-    assert body._ring_touches
+    assert body.exact_ring_touches
     assert Scene.from_json(json.loads(json.dumps(scene.to_json()))) == scene
     assert pickle.loads(pickle.dumps(scene)) == scene
     (geometry,) = scene.to_shapely(0).values()

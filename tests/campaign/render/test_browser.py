@@ -367,7 +367,7 @@ def test_the_plot_of_a_clearance_follows_the_time(browser, tmp_path):
     path.write_text(page_of(film, gap=clearance(scene, *names)), encoding="utf-8")
     browser.get(path.as_uri())
     share = 0.25
-    at = scene.start + (near(film.end, QQ(100)) - scene._start) / 4
+    at = scene.start + (near(film.end, QQ(100)) - scene.exact_start) / 4
     browser.execute_script("exactpt.seek(arguments[0]); exactpt.state()", str(at))
 
     left = browser.execute_script("return document.getElementById('now').style.left")
@@ -441,7 +441,7 @@ def test_the_certificates_of_a_tile_have_the_roots_of_the_engine(page, at):
                 assert (turn > 0) - (turn < 0) == (value > 0) - (value < 0)
             piece = min(
                 (p for v in certificate["nodes"]
-                 if (p := owner[v][0]._piece_after(at).until) is not None),
+                 if (p := owner[v][0].exact_piece_after(at).until) is not None),
                 default=scene.end,
             )  # fmt: skip
             end = min(QQ(piece), near(page_end(), QQ(10)))

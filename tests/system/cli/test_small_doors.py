@@ -60,7 +60,7 @@ def test_subpackages_are_attributes_without_an_import():
 
 
 def test_places_at_an_irrational_time_name_the_digits():
-    time = AlgebraicNumber._root((-2, 0, 1), 1, 2)
+    time = AlgebraicNumber.exact_root((-2, 0, 1), 1, 2)
 
     with pytest.raises(InputError, match=r"an irrational number, .*at\(time, digits=30\)"):
         rising().at(time)

@@ -465,7 +465,9 @@ def test_a_normal_from_the_piece_after_a_breakpoint_is_found(monkeypatch):
     assert wrong_normals() == set()
 
     def after(body, time, start):
-        return body._piece_after(max((b for b in body._breakpoints if time >= b), default=start))
+        return body.exact_piece_after(
+            max((b for b in body.exact_breakpoints if time >= b), default=start)
+        )
 
     monkeypatch.setattr("exactpt.pairs.incidences._piece_before", after)
     assert wrong_normals() == {"normal"}

@@ -74,7 +74,7 @@ def test_edited_function_is_wrong_for_those_who_imported_it_too():
     from exactpt.pairs import scene_pieces
 
     body = Body("disc", [(0, 0)], radius="1/3")
-    with _edited(boxes, "radius_above", "enclosing_floats(body._radius)[1]", "7.0"):
+    with _edited(boxes, "radius_above", "enclosing_floats(body.exact_radius)[1]", "7.0"):
         assert scene_pieces.radius_above(body) == 7.0
     assert 1 / 3 <= scene_pieces.radius_above(body) < 0.34
 

@@ -154,11 +154,11 @@ def test_overlap_by_vertical_lines_is_an_area_in_common():
     for _ in range(150):
         scene = touching_scene(random)
         a, b = scene.bodies[:2]
-        p, q = (body._at(scene._start) for body in (a, b))
+        p, q = (body.exact_at(scene.exact_start) for body in (a, b))
         if not a.has_interior or not b.has_interior:
             continue
         area = shapely.Polygon(p).intersection(shapely.Polygon(q)).area
-        found = overlap(a, b, scene._start)
+        found = overlap(a, b, scene.exact_start)
         assert found == (area > 1e-9)
         seen.add(found)
     assert seen == {True, False}

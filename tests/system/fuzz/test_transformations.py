@@ -85,11 +85,11 @@ def test_features_are_where_the_old_ones_are(name):
         image = TRANSFORMATIONS[name](scene, Random(number))
         if image is None:
             continue
-        t = (2 * scene._start + scene._end) / 3
-        old = {body.name: (body, body._at(t)) for body in image.old.scene.bodies}
+        t = (2 * scene.exact_start + scene.exact_end) / 3
+        old = {body.name: (body, body.exact_at(t)) for body in image.old.scene.bodies}
         mirror = image.new.mirror
         for body in image.new.scene.bodies:
-            places = [mirror.point(place) for place in body._at(mirror.time(t))]
+            places = [mirror.point(place) for place in body.exact_at(mirror.time(t))]
             for i, place in enumerate(places):
                 seen += 1
                 assert is_on(place, image.new.vertices[body.name, i], old)

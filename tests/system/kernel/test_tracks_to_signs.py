@@ -32,9 +32,9 @@ def hostile_tracks(rng):
     else:
         setting = SETTINGS[rng.choice(sorted(SETTINGS))]
         scene = random_scene(motion, numbers, rng.random(), setting=setting, side=2)
-    places = [p for body in scene.bodies for p in body._at(scene._start)]
-    normalization = normalization_for(places, scene._start, scene._end)
-    tracks = [t for body in scene.bodies for t in body._piece_after(scene._start).tracks]
+    places = [p for body in scene.bodies for p in body.exact_at(scene.exact_start)]
+    normalization = normalization_for(places, scene.exact_start, scene.exact_end)
+    tracks = [t for body in scene.bodies for t in body.exact_piece_after(scene.exact_start).tracks]
     a, b, c = rng.sample(tracks, 3)
     if style in ("collinear", "near"):
         grain = power_of_two(-rng.choice([40, 52, 60])) * (places[0][1] - places[-1][1])
@@ -61,14 +61,14 @@ def in_frame(normalization, f):
     step, result = power_of_two(normalization.time_scale), Polynomial()
     for c in reversed(f):
         result = result * Polynomial([normalization.origin, step]) + Polynomial([c])
-    return list(result._coefficients)
+    return list(result.exact_coefficients)
 
 
 def near_roots(rng, true, end):
     """Times next to which the question is asked: roots of the polynomial, or any."""
     f = primitive(tuple((q * _common(true)).numerator for q in true))
     found = [r.time for r in roots_after(f, AlgebraicNumber(-abs(end)), 2 * abs(end))][:4]
-    return [rational(nearest_float(r._low)) for r in found] or [end * QQ(rng.randint(0, 8), 8)]
+    return [rational(nearest_float(r.exact_low)) for r in found] or [end * QQ(rng.randint(0, 8), 8)]
 
 
 def _common(values):
@@ -91,9 +91,12 @@ def attack(seed, cases):
             a, b = tracks[:2]
             function, ask = difference(a.x, a.w, b.x, b.w), coefficients.x_difference
             float_tracks = float_tracks[:2]
-        true, end = in_frame(normalization, function), rational(normalization.time(scene._end)[1])
+        true, end = (
+            in_frame(normalization, function),
+            rational(normalization.time(scene.exact_end)[1]),
+        )
         if not any(true):
-            now = *normalization.time(scene._start), float(end)
+            now = *normalization.time(scene.exact_start), float(end)
             assert ask(*float_tracks, errors, *now, at_root=False)[0] == 0
             continue
         case = asked(rng, true, near_roots(rng, true, end), (), ())

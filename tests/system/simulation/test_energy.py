@@ -91,7 +91,7 @@ def garbage():
 def test_a_start_leaves_none(tiling):
     scene = crowd(60, Random(1), radius=60, end=100)
     with garbage() as left:
-        kept = start_tiling(scene, tiling, scene._start)
+        kept = start_tiling(scene, tiling, scene.exact_start)
 
     assert left.total() <= FEW
     assert len(kept.queue) > 60
@@ -146,7 +146,7 @@ def test_a_tiling_of_bodies_in_arrays_keeps_less_than_two_kilobytes_a_body(tilin
 def test_events_of_a_hundred_thousand_bodies():
     scene, kinetic = started(100_000, "greedy")
 
-    assert kinetic.advance_many(scene._end, 20_000) == 20_000
+    assert kinetic.advance_many(scene.exact_end, 20_000) == 20_000
 
     assert kinetic.stats.total >= 20_000
     assert kinetic.stats.rebuilds == 0

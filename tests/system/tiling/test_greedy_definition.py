@@ -106,10 +106,10 @@ def test_counts(scenes):
 
 def in_greedy_order(scene, *, convex):
     """The kinetic tiling of a scene, by the vertical decomposition if ``convex``."""
-    vertices = Vertices.of(scene.bodies, scene.start, scene._end)
-    certifier = Certifier(vertices, scene._start, scene._end, exact_only=False)
+    vertices = Vertices.of(scene.bodies, scene.start, scene.exact_end)
+    certifier = Certifier(vertices, scene.exact_start, scene.exact_end, exact_only=False)
     tiling = make(catalogue.find("greedy", convex=convex), vertices, certifier, Stats())
-    tiling.begin(scene._start)
+    tiling.begin(scene.exact_start)
     return tiling
 
 
@@ -120,14 +120,14 @@ def ends_of_diagonals(tiling):
 
 def following(tiling, scene):
     """The time of the next event, or the end."""
-    return tiling.next_number() or AlgebraicNumber(scene._end)
+    return tiling.next_number() or AlgebraicNumber(scene.exact_end)
 
 
 def advance_to(tiling, scene, time):
     """Process all events up to a time; whether there is a contact then."""
     try:
         while following(tiling, scene).compare(time) <= 0:
-            if tiling.advance(scene._end) is None:
+            if tiling.advance(scene.exact_end) is None:
                 return False
     except ContactFound:
         return True
@@ -141,7 +141,7 @@ def compare(scene):
         The number of intervals between events in which the tilings were compared.
     """
     walls, shadows = in_greedy_order(scene, convex=True), in_greedy_order(scene, convex=False)
-    compared, end = 0, AlgebraicNumber(scene._end)
+    compared, end = 0, AlgebraicNumber(scene.exact_end)
     while True:
         now = max(walls.now, shadows.now)
         until = min(following(walls, scene), following(shadows, scene))
@@ -162,7 +162,7 @@ def are_convex(scene):
     return (
         any(body.size > 1 for body in scene.bodies)
         and not initial_touches(scene)[1]
-        and plan_tiling(scene, "greedy", scene._start).entry.bodies is catalogue.Bodies.CONVEX
+        and plan_tiling(scene, "greedy", scene.exact_start).entry.bodies is catalogue.Bodies.CONVEX
     )
 
 

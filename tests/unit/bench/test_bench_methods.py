@@ -215,7 +215,7 @@ def test_the_planted_answer_is_true(family):
 def test_coordinates_are_doubles(family):
     for scene, _ in planted(family):
         for body in scene.bodies:
-            for track in body._piece_after(scene.start).tracks:
+            for track in body.exact_piece_after(scene.start).tracks:
                 for c in (*track.x, *track.y):
                     value = QQ(c, track.w[0])
                     assert QQ(*float(value).as_integer_ratio()) == value

@@ -98,7 +98,7 @@ def test_lines_are_read_out_of_a_table():
 
 def test_a_tiling_goes_on_unchanged():
     scene = crowd(30, Random(1), radius=60, end=100)
-    measured, other = (start_tiling(scene, "lazy", scene._start) for _ in range(2))
+    measured, other = (start_tiling(scene, "lazy", scene.exact_start) for _ in range(2))
 
     assert floor(measured, 100) > 0
 
@@ -113,7 +113,7 @@ def test_a_tiling_goes_on_unchanged():
 
 def test_each_event_computes_its_certificates():
     scene = crowd(30, Random(2), radius=60, end=100)
-    kinetic = start_tiling(scene, "lazy", scene._start)
+    kinetic = start_tiling(scene, "lazy", scene.exact_start)
     before = kinetic.certifier.made
 
     floor(kinetic, 10)

@@ -43,7 +43,7 @@ def check_places(vertices):
 
 
 def vertices_of(scene):
-    return Vertices.of(scene.bodies, scene._start, scene._end)
+    return Vertices.of(scene.bodies, scene.exact_start, scene.exact_end)
 
 
 def test_places_of_every_family_equal_the_images():
@@ -59,7 +59,7 @@ def test_places_of_every_family_equal_the_images():
 def test_places_follow_pieces_additions_and_removals(family):
     scene, other = generate(family, 1), generate("convex", 2)
     vertices = vertices_of(scene)
-    middle = (scene._start + scene._end) / 2
+    middle = (scene.exact_start + scene.exact_end) / 2
 
     for i in range(len(vertices.bodies)):
         vertices.enter_piece(i, middle)
@@ -68,7 +68,7 @@ def test_places_follow_pieces_additions_and_removals(family):
     vertices.remove(0)
     check_places(vertices)
     for body in other.bodies:
-        vertices.add(body, other._start)
+        vertices.add(body, other.exact_start)
         check_places(vertices)
     assert len(vertices.all) > before
 
@@ -78,7 +78,7 @@ def test_answers_by_places_equal_those_by_images(family):
     """The two ways to the coefficients lead to one formula: equal bits."""
     scene = generate(family, 3)
     vertices = vertices_of(scene)
-    certifier = Certifier(vertices, scene._start, scene._end, exact_only=False)
+    certifier = Certifier(vertices, scene.exact_start, scene.exact_end, exact_only=False)
     ids = vertices.ids()
     Random(family).shuffle(ids)
     for a, b, c in islice(permutations(ids, 3), 300):
@@ -115,7 +115,7 @@ def pieces(a, b):
         Body(name, [(x, 0)], Translation(path))
         for name, (x, path) in zip("ab", (a, b), strict=True)
     )
-    return [(body._piece_after(QQ(0)), 0) for body in bodies]
+    return [(body.exact_piece_after(QQ(0)), 0) for body in bodies]
 
 
 @pytest.mark.long
@@ -125,7 +125,9 @@ def test_two_vertices_cross_when_their_trajectories_do(x, y, u, v, start):
     a, b = p.track(0), q.track(0)
     rates = [QQ(t.x[1], t.w[0]) if len(t.x) > 1 else QQ(0) for t in (a, b)]
     assume(rates[0] != rates[1])
-    normalization = normalization_for([a._at(QQ(0)), b._at(QQ(0))], QQ(start), QQ(start + 7))
+    normalization = normalization_for(
+        [a.exact_at(QQ(0)), b.exact_at(QQ(0))], QQ(start), QQ(start + 7)
+    )
 
     number = exact_time(EventTime(0.0, 0.0, 0, 1, -1), tuple(both), normalization)
 
@@ -138,7 +140,7 @@ def test_two_vertices_cross_when_their_trajectories_do(x, y, u, v, start):
     [("1/3", Translation([0, 1])), (1, Translation([0, 1, 1])), (1, Rigid([0, 1]))],
 )
 def test_others_have_no_straight_x(x, motion):
-    piece = Body("a", [(x, 0), (2, 3)], motion, closed=False)._piece_after(QQ(0))
+    piece = Body("a", [(x, 0), (2, 3)], motion, closed=False).exact_piece_after(QQ(0))
 
     assert piece.straight_x(0) is None
 
@@ -158,7 +160,7 @@ def test_enclosures_without_a_single_root_are_refused(enclosure):
     """The roots are -+sqrt(3/2); refinement of a forged time, as by ``float(now)``, had no end."""
     x = Body("x", [(0, 0)], Translation([], [-3, 0, 2]))
     others = Body("o", [(1, 0), (2, 0)], closed=False)
-    piece, other = x._piece_after(QQ(0)), others._piece_after(QQ(0))
+    piece, other = x.exact_piece_after(QQ(0)), others.exact_piece_after(QQ(0))
     vertices = ((piece, 0), (other, 0), (other, 1))
 
     with pytest.raises(AuditError, match="no failure between"):

@@ -73,9 +73,9 @@ def test_thin_bodies_through_touches_overlap_as_by_the_definition():
     random, overlapping = Random(5), 0
     for _ in range(150):
         body = Body("b", parts=as_parts(touching_parts(random, (QQ(0), QQ(0)))))
-        if not body._ring_touches:
+        if not body.exact_ring_touches:
             continue
-        x, y = random.choice(body._ring_touches)
+        x, y = random.choice(body.exact_ring_touches)
         step = QQ(1, random.choice([4, 40]))
         u, v, w, z = (step * random.randint(-3, 3) for _ in range(4))
         ends = [(x + u, y + v), (x, y), (x + w, y + z)]
@@ -157,7 +157,7 @@ def test_a_body_that_closes_on_itself_counts():
     assert alone.kind == "self"
     again = first_contact(scene, after_start=True)
     assert (again.time, again.kind, again.pairs) == (alone.time, "self", alone.pairs)
-    beside = Body("beside", [scene.bodies[0]._at(scene._start)[0]])
+    beside = Body("beside", [scene.bodies[0].exact_at(scene.exact_start)[0]])
     both = Scene([*scene.bodies, beside], (scene.start, scene.end))
     assert first_contact(both).kind == "initial"
     assert first_contact(both, after_start=True).time <= alone.time

@@ -121,7 +121,7 @@ def test_bug_touch_at_the_start_at_angle_0_was_not_certain(omega, start, other):
 def test_touching_at_the_start_at_another_angle_is_not_sure():
     """The tip is at a place that is not rational, and leaves at once."""
     turning = blade()
-    tip = Body("p", [turning._at(QQ(1))[1]])
+    tip = Body("p", [turning.exact_at(QQ(1))[1]])
     found = bounds_of(turning, tip, time=(1, 3))
 
     assert found.low == 1
@@ -131,7 +131,9 @@ def test_touching_at_the_start_at_another_angle_is_not_sure():
 def test_touch_at_the_start_names_the_pairs_that_may_meet():
     late = Spin(1, (0, 5), time=(1, 3), error="1/1000")
     turning = Body("q", [(0, 5), (2, 5)], late)
-    found = bounds_of(blade(), Body("p", [(2, 0)]), turning, Body("r", [turning._at(QQ(0))[1]]))
+    found = bounds_of(
+        blade(), Body("p", [(2, 0)]), turning, Body("r", [turning.exact_at(QQ(0))[1]])
+    )
 
     assert found.low == found.high == 0
     assert found.pairs == (("b", "p"), ("q", "r"))

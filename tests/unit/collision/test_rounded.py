@@ -245,8 +245,8 @@ def test_families_against_the_definition(family, count):
 
 def exact_places(body, t):
     """The positions at a time with many digits."""
-    tracks = body._piece_after(t._low).tracks
-    x = mpf(int(t._low.numerator)) / int(t._low.denominator)
+    tracks = body.exact_piece_after(t.exact_low).tracks
+    x = mpf(int(t.exact_low.numerator)) / int(t.exact_low.denominator)
 
     def value(f):
         return sum((mpf(int(c)) * x**k for k, c in enumerate(f)), mpf(0))
@@ -265,7 +265,7 @@ def test_point_and_normal_are_the_nearest_doubles(family):
         contact = first_contact(scene)
         if contact is None or contact.kind == "initial":
             continue
-        while contact.time._high - contact.time._low > QQ(1, 2**700):
+        while contact.time.exact_high - contact.time.exact_low > QQ(1, 2**700):
             contact.time.refine()
         for pair in contact.pairs:
             one, other = scene.body(pair.body), scene.body(pair.other)

@@ -221,7 +221,7 @@ def test_a_crowd_of_doubles_is_built_without_a_rational(monkeypatch):
 def test_exact_vertices_are_made_for_what_may_touch_alone():
     scene = Scene([Body(*body) for body in crowd(200)], (0, 4))
     contact = first_contact(scene)
-    made = [body for body in scene.bodies if body._shape.is_exact]
+    made = [body for body in scene.bodies if body.exact_shape.is_exact]
     assert contact is not None
     assert len(made) < 40
     assert summary(contact) == summary(PairsSearch(scene).run_to_contact())

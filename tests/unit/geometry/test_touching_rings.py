@@ -156,8 +156,8 @@ def test_a_touch_is_told_from_a_gap_and_from_a_crossing_however_small(tiny):
     def body(y):
         return Body("b", SQUARE, holes=[[(4, y), (5, 2), (3, 2)]])
 
-    assert Scene([body(0)]).bodies[0]._ring_touches == ((4, 0),)
-    assert Scene([body(tiny)]).bodies[0]._ring_touches == ()
+    assert Scene([body(0)]).bodies[0].exact_ring_touches == ((4, 0),)
+    assert Scene([body(tiny)]).bodies[0].exact_ring_touches == ()
     with pytest.raises(InputError, match="two rings cross: edge 0"):
         Scene([body(-tiny)])
 

@@ -620,7 +620,7 @@ def test_equal_numbers_have_equal_hashes(drawn, history):
     """However far they have been refined, and by whatever polynomial they are known."""
     x, _ = drawn
     twin = AlgebraicNumber.root(x.polynomial, x.low, x.high)
-    other = x._as_root_of(multiply(x._polynomial, as_int_poly([-7, 0, 0, 1])))
+    other = x.exact_as_root_of(multiply(x.exact_polynomial, as_int_poly([-7, 0, 0, 1])))
     use(x, history)
 
     assert x == twin == other

@@ -31,7 +31,7 @@ def chains(draw, least=2):
     else:
         vertices = [{"x": [2 * i, *draw(paths)], "y": draw(paths)} for i in range(n)]
         body = Body("a", vertices, closed=False)
-    return body._piece_after(START).tracks
+    return body.exact_piece_after(START).tracks
 
 
 def direction(p, q):
@@ -88,7 +88,7 @@ def test_a_ring_goes_out_on_the_right_and_back_on_the_left():
 
 
 def test_a_point_becomes_a_triangle_around_it():
-    track = Body("a", [(3, 4)])._piece_after(START).tracks
+    track = Body("a", [(3, 4)]).exact_piece_after(START).tracks
     offsets, until = displacements(track, START, END)
 
     assert until is None
@@ -97,7 +97,7 @@ def test_a_point_becomes_a_triangle_around_it():
 
 
 def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
-    tracks = Body("a", [(0, 0), (2, 1)], Rigid([0, 1]))._piece_after(START).tracks
+    tracks = Body("a", [(0, 0), (2, 1)], Rigid([0, 1])).exact_piece_after(START).tracks
     offsets, until = displacements(tracks, START, END)
     along = direction(*tracks)
 
@@ -108,9 +108,9 @@ def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
 
 def test_displacements_at_the_start_of_a_chain_with_a_right_angle_then():
     """It becomes obtuse: the left of the first edge, good from then on, is along the other."""
-    tracks = Body("a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False)._piece_after(
-        START
-    )
+    tracks = Body(
+        "a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False
+    ).exact_piece_after(START)
     left = displacements(tracks.tracks, START, END).directions[5]
 
     for p, q in pairwise(tracks.tracks):
@@ -121,6 +121,6 @@ def test_displacements_end_where_the_chain_has_bent_too_far():
     """A right angle, then straight, then the other way round: one direction is not enough."""
     tracks = Body(
         "a", [[0, 0], {"x": [2], "y": [0]}, {"x": [2, 2, -1], "y": [2, -2]}], closed=False
-    )._piece_after(START).tracks  # fmt: skip
+    ).exact_piece_after(START).tracks  # fmt: skip
 
     assert displacements(tracks, START, END).until is not None

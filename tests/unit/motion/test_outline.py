@@ -74,7 +74,7 @@ def test_doubles_of_arrays_are_kept():
         assert shape.doubles is not None
         assert all(type(x) is float for xs in shape.doubles for x in xs)
     motion = Translation(np.array([0.0, 0.1]), [np.float64(0.5), np.float32(2)])
-    assert motion.x._doubles == (0.0, 0.1)
+    assert motion.x.exact_doubles == (0.0, 0.1)
     assert motion.y(1) == 2.5
 
 
@@ -118,7 +118,7 @@ def test_pairs_are_those_in_which_a_body_covers_a_vertex(offset):
     for i in range(60):
         x, y = random.randrange(3200) + QQ(1, 5), random.randrange(-5, 35) + QQ(1, 3)
         small.append(Body(f"s{i}", square(offset + x / 20, y, QQ(1, 40))))
-    bodies = {i: (body, body._at(QQ(0))) for i, body in enumerate([*plates, *small])}
+    bodies = {i: (body, body.exact_at(QQ(0))) for i, body in enumerate([*plates, *small])}
     apart = [(i, j) for j in bodies for i in range(4) if i < j and random.random() < 0.9]
     expected = {
         (i, j) for i, j in apart
@@ -134,8 +134,8 @@ def test_vertices_are_not_compared_with_edges_of_their_own_rigid_body():
     top = [*((QQ(i, n), 1) for i in range(n + 1)), (1, 2), (0, 2)]
     bottom = [*((QQ(i, n), 0) for i in range(n + 1)), (1, -1), (0, -1)]
     scene = Scene([Body("a", top, Translation([0, 1])), Body("b", bottom)], time=(-2, 2))
-    swept = SweptEdges(scene.bodies, scene._start, scene._end)
-    boxes = swept.during(scene._start, scene._end)
+    swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
+    boxes = swept.during(scene.exact_start, scene.exact_end)
     found = list(swept.meeting(boxes, swept.around(boxes)))
     assert np.concatenate([v for v, _ in found]).size == 0
 

@@ -50,7 +50,7 @@ def random_path(rng, degree, pieces=3):
         poses.append([Polynomial([c, *row]) for c, row in zip(start, rest, strict=True)])
         duration = QQ(rng.randint(1, 9), 6)
         times.append(times[-1] + duration)
-        start = [f._at(duration) for f in poses[-1]]
+        start = [f.exact_at(duration) for f in poses[-1]]
     return times, poses
 
 
@@ -106,7 +106,7 @@ def test_the_bound_of_the_angle_covers_what_is_sampled_for_any_half_turn():
             bound = real(angle_error(turn, a, b, angle, QQ(1, 10**6)))
             times = [a + (b - a) * QQ(i, 10) for i in range(11)]
             # the continuous error: no full turn is lost in less than pi
-            worst = max(away(turned(turn, t), real(angle._at(t))) for t in times)
+            worst = max(away(turned(turn, t), real(angle.exact_at(t))) for t in times)
             assert worst <= bound
             near += worst > bound / 3
     assert near > 3  # the bound is no idle one
@@ -120,7 +120,7 @@ def test_the_bound_of_the_place():
 def test_neighbours_agree_exactly():
     path = PosePath(*random_path(Random(2), 3), error="1e-4")
     Body("b", [(0, 0), (3, 1), (1, 5)], path)  # refuses jumps
-    for t, (before, after) in zip(path._until, pairwise(path.motions), strict=True):
+    for t, (before, after) in zip(path.exact_until, pairwise(path.motions), strict=True):
         for position in [(1, 0), (0, 1)]:
             place = Polynomial([position[0]]), Polynomial([position[1]])
             assert before.track(place).at(t) == after.track(place).at(t)
@@ -303,7 +303,7 @@ def test_pickles_and_tampered_pieces():
     assert pickle.loads(pickle.dumps(path)) == path
     assert hash(pickle.loads(pickle.dumps(path))) == hash(path)
     (pieces,), _ = Pieces._given(path)
-    given = path.times, path._poses, path.error
+    given = path.times, path.exact_poses, path.error
     assert PosePath.of_pieces(pieces, *given) == path
     for i, (end, motion) in enumerate(pieces):
         for change in [
@@ -321,7 +321,7 @@ def test_pickles_and_tampered_pieces():
     with pytest.raises(InputError, match="do not follow"):
         PosePath.of_pieces(pieces[1:], *given)
     with pytest.raises(InputError, match="do not follow"):
-        PosePath.of_pieces(pieces, path.times, path._poses, path.error / 1000)
+        PosePath.of_pieces(pieces, path.times, path.exact_poses, path.error / 1000)
 
 
 def blade(**options):

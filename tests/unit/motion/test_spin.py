@@ -196,7 +196,7 @@ def test_pieces_of_one_duration_have_one_proof(monkeypatch):
 
 def test_a_proof_of_many_pieces_is_one_of_each(monkeypatch):
     spins = [Spin("5/3", time=(-1, 1), error=error) for error in ("1/10", "1/500")]
-    errors = [(spin, spin._error * QQ(k, 16)) for spin in spins for k in range(8, 17)]
+    errors = [(spin, spin.exact_error * QQ(k, 16)) for spin in spins for k in range(8, 17)]
     many = [is_within(spin, QQ(5, 3), error) for spin, error in errors]
     within = turned_angle._are_within
 

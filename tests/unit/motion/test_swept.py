@@ -32,7 +32,7 @@ bodies = st.one_of(
     st.fractions(0, 4, max_denominator=16),
 )
 def test_boxes_contain_the_vertices(bodies, begin, length):
-    tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
+    tracks = [body.exact_piece_after(QQ(0)).tracks[0] for body in bodies]
     normalization = normalization_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
     enclosures = Enclosures(normalization)
     float_tracks = enclosures.float_tracks(tracks)
@@ -71,7 +71,9 @@ def drift_at(swept, normalization, t):
 def test_what_all_have_in_common_moves_no_box():
     """A convoy: each box is as if its body were at rest."""
     tracks = [
-        Body("a", [(3 * i, i)], Translation([0, 5, "1/3"], [0, -7]))._piece_after(QQ(0)).tracks[0]
+        Body("a", [(3 * i, i)], Translation([0, 5, "1/3"], [0, -7]))
+        .exact_piece_after(QQ(0))
+        .tracks[0]
         for i in range(5)
     ]
     normalization = normalization_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
@@ -94,10 +96,10 @@ def test_boxes_contain_what_underflows(bits, numerator):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
         normalization = normalization_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
         enclosures = Enclosures(normalization)
-        float_track = enclosures.float_tracks([power._piece_after(QQ(0)).tracks[0]])[0]
+        float_track = enclosures.float_tracks([power.exact_piece_after(QQ(0)).tracks[0]])[0]
         low, high = normalization.time(t)[0], normalization.time(t * (1 + QQ(1, 1 << 50)))[1]
 
-        rest = enclosures.float_tracks([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
+        rest = enclosures.float_tracks([Body("b", [(0, 0)]).exact_piece_after(QQ(0)).tracks[0]])[0]
         swept = SweptBoxes([float_track, rest, rest], enclosures.errors)
         x_low, x_high, *_ = swept.during(low, high)[0].tolist()
 
@@ -106,13 +108,13 @@ def test_boxes_contain_what_underflows(bits, numerator):
 
 def test_boxes_are_tight():
     """Of a line: its ends; of a turn: what the bounds of numerator and denominator allow."""
-    line = Body("a", [(0, 0)], Translation([0, 1], [0, -2]))._piece_after(QQ(0)).tracks[0]
-    turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)]))._piece_after(QQ(0)).tracks[0]
+    line = Body("a", [(0, 0)], Translation([0, 1], [0, -2])).exact_piece_after(QQ(0)).tracks[0]
+    turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)])).exact_piece_after(QQ(0)).tracks[0]
     normalization = normalization_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
     enclosures = Enclosures(normalization)
     assert normalization.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
-    rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
+    rest = Body("b", [(1, 1)]).exact_piece_after(QQ(0)).tracks[0]
     float_tracks = enclosures.float_tracks([line, turn, rest, rest])
     boxes = SweptBoxes(float_tracks, enclosures.errors).during(0.0, 1.0)
 
@@ -124,9 +126,9 @@ def test_boxes_are_tight():
 
 def test_what_cannot_be_bounded_has_the_whole_plane():
     """Coefficients out of the range of doubles, and denominators that are not surely positive."""
-    huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300]))._piece_after(QQ(0)).tracks[0]
-    spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
-    rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
+    huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300])).exact_piece_after(QQ(0)).tracks[0]
+    spin = Body("b", [(1, 0)], Rigid([0, 1])).exact_piece_after(QQ(0)).tracks[0]
+    rest = Body("c", [(1, 1)]).exact_piece_after(QQ(0)).tracks[0]
     normalization = normalization_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
     enclosures = Enclosures(normalization)
     float_tracks = enclosures.float_tracks([huge, spin, rest])

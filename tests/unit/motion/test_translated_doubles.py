@@ -54,7 +54,7 @@ IDENTITY = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 @example([(-0.33, 0.0), (0.0, 0.0), (0.0051, 0.0)], [Fraction(1, 3)], [], IDENTITY)
 def test_enclosures_without_trajectories(points, x, y, normalization):
     """The same enclosures where all is exact, others within a bound that is hardly larger."""
-    piece = Body("b", points, Translation(x, y), closed=False)._piece_after(QQ(0))
+    piece = Body("b", points, Translation(x, y), closed=False).exact_piece_after(QQ(0))
     short, long = Enclosures(normalization), Enclosures(normalization)
 
     ours, expected = short.of_piece(piece), long.float_tracks(piece.tracks)
@@ -96,7 +96,7 @@ def assert_enclosed(float_tracks, piece, normalization, errors):
 @example([(Fraction(1, 3), 0), (Fraction(10**9) / 7, 1)], [-Fraction(10**9) / 7], [], IDENTITY)
 def test_enclosures_of_ratios(points, x, y, normalization):
     body = Body("b", [tuple(map(str, p)) for p in points], Translation(x, y), closed=False)
-    piece = body._piece_after(QQ(0))
+    piece = body.exact_piece_after(QQ(0))
     enclosures = Enclosures(normalization)
 
     assert_enclosed(enclosures.of_piece(piece), piece, normalization, enclosures.errors)
@@ -104,7 +104,7 @@ def test_enclosures_of_ratios(points, x, y, normalization):
 
 def test_trajectories_are_made_when_asked_for():
     points = [(0.5, 0.25), (3, 0), ("7", "1/2")]
-    piece = Body("b", points, Translation([1, 0.1]))._piece_after(QQ(0))
+    piece = Body("b", points, Translation([1, 0.1])).exact_piece_after(QQ(0))
 
     float_tracks = Enclosures(normalization_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
 
@@ -125,7 +125,7 @@ def test_trajectories_are_made_when_asked_for():
     ],
 )
 def test_others_have_those_of_their_trajectories(vertices, motion):
-    piece = Body("b", vertices, motion)._piece_after(QQ(0))
+    piece = Body("b", vertices, motion).exact_piece_after(QQ(0))
     normalization = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
     ours, expected = (
@@ -143,7 +143,7 @@ def test_corners_have_the_bounding_box(points, shift):
 
     boxes = [
         [(min(axis), max(axis)) for axis in zip(*places, strict=True)]
-        for places in (body._piece_after(t).corners(t), body._at(t))
+        for places in (body.exact_piece_after(t).corners(t), body.exact_at(t))
     ]
 
     assert boxes[0] == boxes[1]
@@ -153,4 +153,4 @@ def test_each_piece_has_its_own_translation():
     motion = Pieces([(1, Translation([0, 1])), (None, Translation([1]))])
     body = Body("b", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], motion)
 
-    assert [body._piece_after(QQ(t)).corners(QQ(t))[0] for t in (0, 2)] == [(0, 0), (1, 0)]
+    assert [body.exact_piece_after(QQ(t)).corners(QQ(t))[0] for t in (0, 2)] == [(0, 0), (1, 0)]

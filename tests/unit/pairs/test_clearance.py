@@ -76,7 +76,7 @@ def test_distances_of_turning_bodies_are_in_lowest_terms():
 
     gap = gap_of(Body("other", [(8, 0), (10, 0), (10, 3)], turning), time=(0, 9))
 
-    assert max(len(piece.start._polynomial) for piece in gap.pieces) == 5
+    assert max(len(piece.start.exact_polynomial) for piece in gap.pieces) == 5
 
 
 def test_where_bodies_meet_the_distance_is_zero():
@@ -104,13 +104,15 @@ def check(scene):
     """Pieces follow each other without a jump, and are right in their middles and at ends."""
     a, b = (body.name for body in scene.bodies)
     gap = clearance(scene, a, b)
-    start, end = AlgebraicNumber(scene._start), AlgebraicNumber(scene._end)
+    start, end = AlgebraicNumber(scene.exact_start), AlgebraicNumber(scene.exact_end)
     assert gap.pieces[0].start == start
     assert gap.pieces[-1].end == end
     for before, after in pairwise(gap.pieces):
         assert before.end == after.start
         assert value(before, before.end) == value(after, after.start)
-    samples = [scene._start + (scene._end - scene._start) * k / 12 for k in range(13)]
+    samples = [
+        scene.exact_start + (scene.exact_end - scene.exact_start) * k / 12 for k in range(13)
+    ]
     for piece in gap.pieces:
         if piece.start < piece.end:
             middle = rational_between(piece.start, piece.end)

@@ -189,7 +189,7 @@ def test_chains_on_a_grid_cross_as_counted():
             overlap(body("a", cut(p, n)), body("b", cut(q, m)), QQ(0))
             for n, m in ((1, 1), (1, 3), (2, 1), (3, 2))
         }
-        counted = chains_cross(*(body("c", points)._at(QQ(0)) for points in (p, q)))
+        counted = chains_cross(*(body("c", points).exact_at(QQ(0)) for points in (p, q)))
         assert found == {counted}, (p, q)
         seen[counted, shapely.LineString(p).crosses(shapely.LineString(q))] += 1
     assert seen[True, True] > 60

@@ -113,7 +113,7 @@ def test_tiny_scenes_against_the_definition(count):
         a, b = scene.bodies
         squared = QQ(random.choice([0, 1, 2, 4, 5]), random.choice([1, 1, 2, 9]))
         time = first_within(scene, "a", "b", distance_squared=squared)
-        assert time == reference.first_within(a, b, scene._start, scene._end, squared)
+        assert time == reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
         found += time is not None and time > 0
 
     assert found > count / 10
@@ -159,8 +159,8 @@ def test_bodies_far_from_each_other_have_no_exact_place_at_the_start(monkeypatch
         Body(f"b{i}", [(9 * i, 0), (9 * i + 2, 0.5), (9 * i + 1, 2)], Translation([0, -i % 3 / 8]))
         for i in range(200)
     ]
-    placed, at = [], Body._at
-    monkeypatch.setattr(Body, "_at", lambda body, time: placed.append(body) or at(body, time))
+    placed, at = [], Body.exact_at
+    monkeypatch.setattr(Body, "exact_at", lambda body, time: placed.append(body) or at(body, time))
 
     found = first_within(Scene(bodies, (0, 10)), distance=6)
 

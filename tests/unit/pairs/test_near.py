@@ -48,7 +48,7 @@ def test_contacts_of_many_pieces_need_few_boxes_and_lose_no_pair(others, monkeyp
     rng = Random(5)
     bodies = [*(walker(f"w{k}", rng) for k in range(8)), *others]
     scene = Scene(bodies, time=(0, 100))
-    cuts = {t for body in bodies for t in body._breakpoints}
+    cuts = {t for body in bodies for t in body.exact_breakpoints}
     during, counted = SweptBoxes.during, []
     monkeypatch.setattr(
         SweptBoxes, "during", lambda self, *given: counted.append(1) or during(self, *given)
@@ -71,7 +71,7 @@ def test_features_are_compared_in_pieces_that_come_near_alone(monkeypatch):
     rng = Random(5)
     a, b = (walker(name, rng) for name in "ab")
     scene = Scene([a, b], time=(0, 100))
-    every = len({t for body in (a, b) for t in body._breakpoints if 0 < t < 100}) + 1
+    every = len({t for body in (a, b) for t in body.exact_breakpoints if 0 < t < 100}) + 1
     times, compared = intervals_module._times, []
     monkeypatch.setattr(
         intervals_module, "_times", lambda *two, **k: compared.append(1) or times(*two, **k)

@@ -77,11 +77,11 @@ def test_the_nearest_pairs_of_translating_polygons_are_kept(offset, monkeypatch)
 
 def _gap(pair, t):
     """The squared distance, computed from positions; None where the foot is beyond an end."""
-    (x, y), (ax, ay) = pair.v._at(t), pair.ends[0]._at(t)
+    (x, y), (ax, ay) = pair.v.exact_at(t), pair.ends[0].exact_at(t)
     wx, wy = x - ax, y - ay
     if not pair.is_of_edge:
         return wx * wx + wy * wy
-    bx, by = pair.ends[1]._at(t)
+    bx, by = pair.ends[1].exact_at(t)
     ux, uy = bx - ax, by - ay
     at = (ux * wx + uy * wy) / (ux * ux + uy * uy)
     return (wx - at * ux) ** 2 + (wy - at * uy) ** 2 if 0 <= at <= 1 else None
@@ -122,7 +122,7 @@ def test_incidences_of_near_features_are_those_of_all(radius, monkeypatch):
         times = []
         for few in (10**9, -1):
             monkeypatch.setattr(intervals, "FEW", few)
-            times.append(intervals.incidence_times(a, b, scene._start, scene._end))
+            times.append(intervals.incidence_times(a, b, scene.exact_start, scene.exact_end))
         assert times[0] == times[1]
         found += len(times[0])
     assert found > 30

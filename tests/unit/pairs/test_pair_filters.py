@@ -55,11 +55,11 @@ def test_filter_with_radius_loses_no_first_contact_of_the_definition(seed):
     end = QQ(12)
     while compared < 60:
         a, b = hard_pair(rng)
-        reach = a._radius + b._radius
+        reach = a.exact_radius + b.exact_radius
         if core_distance(a, b, QQ(0)) <= reach**2:
             continue
         compared += 1
-        p, q = (x._piece_after(QQ(0)).tracks for x in (a, b))
+        p, q = (x.exact_piece_after(QQ(0)).tracks for x in (a, b))
         expected = first_at_distance(a, b, p, q, (QQ(0), end))
         pieces = [straight_pieces(x)[0][0] for x in (a, b)]
         distance = ContactDistance.of(reach**2, reach)

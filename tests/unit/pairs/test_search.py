@@ -84,7 +84,7 @@ def defined(scene, squared):
     """The first approach of any two bodies, from the definition."""
     found = []
     for a, b in combinations(scene.bodies, 2):
-        time = reference.first_within(a, b, scene._start, scene._end, squared)
+        time = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
         if time is not None:
             found.append((time, (a.name, b.name)))
     least = min((time for time, _ in found), default=None)

@@ -89,7 +89,7 @@ def test_spliced_runs(tiling):
         elif contact.time == 1:
             later = Scene.going_on(scene, scene.bodies, QQ(1) + QQ(1, 2**20))
             if first_contact_allpairs(later) is None:
-                lines = spliced(scene, QQ(1), later._start, tiling)
+                lines = spliced(scene, QQ(1), later.exact_start, tiling)
                 answer = verdict(scene, lines)
                 assert " at t = 1" in answer
                 assert "coincide" in answer or "is on the edge" in answer

@@ -96,9 +96,9 @@ def test_a_scene_in_which_a_hole_is_nowhere():
     for hole in ([(20, 1), (30, 1), (30, 11), (20, 11)], [(-1, 1), (11, 1), (11, 11), (1, 11)]):
         forged = Scene.__new__(Scene)
         forged.bodies = (Body("frame", FRAME, holes=[hole]), scene.bodies[1])
-        forged._start, forged._end = scene._start, scene._end
+        forged.exact_start, forged.exact_end = scene.exact_start, scene.exact_end
         reported = verdict(
-            forged, [*header(scene_bytes(forged), forged._start, forged._end), *lines[3:]]
+            forged, [*header(scene_bytes(forged), forged.exact_start, forged.exact_end), *lines[3:]]
         )
         assert any(
             words in reported for words in ("not simple", "none can be", "a hole or part amiss")

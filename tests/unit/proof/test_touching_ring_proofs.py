@@ -24,7 +24,7 @@ def scene_of(holes):
     """A body that is not validated, and a ball beside it that never touches it."""
     ball = Body("ball", [(20, 0), (21, 0), (20, 1)], Translation([0, 1]))
     scene = Scene([ball], (0, 1))
-    return scene.going_on([Body("b", SQUARE, holes=holes), ball], scene._start)
+    return scene.going_on([Body("b", SQUARE, holes=holes), ball], scene.exact_start)
 
 
 def simple(holes):
@@ -39,7 +39,7 @@ def test_a_proof_about_rings_that_touch_is_rejected(name):
     """The lines are those of a proof about a body with other holes, that is accepted."""
     lines, _ = proof_of(simple(TOUCHING[name]), "lazy")
     scene = scene_of(TOUCHING[name])
-    forged = [*header(scene_bytes(scene), scene._start, scene._end), *lines[3:]]
+    forged = [*header(scene_bytes(scene), scene.exact_start, scene.exact_end), *lines[3:]]
     assert "not simple" in verdict(scene, forged)
 
 

@@ -79,7 +79,7 @@ def test_bug_two_runs_in_two_threads_count_for_themselves():
 @pytest.mark.usefixtures("threads_take_turns_often")
 def test_bug_runs_in_threads_may_share_a_track():
     body = Body("b", [(0, 0), (3, 1), (1, 2)], Translation([0, 1], [0, "1/3"]))
-    track = body._piece_after(0).tracks[1]
+    track = body.exact_piece_after(0).tracks[1]
     packed = {width: track.packed(width) for width in (16, 24, 32, 40)}
 
     def ask(_):

@@ -113,7 +113,7 @@ def leaks(value, path, seen):
     elif not type(value).__module__.startswith("exactpt"):
         return [f"{path}: {type(value).__name__}"]
     for name in dir(value):
-        if name.startswith("_") or name in ELSEWHERE or hasattr(tuple, name):
+        if name.startswith(("_", "exact_")) or name in ELSEWHERE or hasattr(tuple, name):
             continue
         if f".{name}" in path:  # `f.derivative().derivative()` has no end
             continue

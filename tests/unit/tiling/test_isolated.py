@@ -72,10 +72,10 @@ def state_of(kinetic):
 
 def run(scene, most=10**9, name="lazy"):
     """The events of a tiling, its state after them, and the contact."""
-    kinetic = start_tiling(scene, name, scene._start)
+    kinetic = start_tiling(scene, name, scene.exact_start)
     events, contact = [], None
     try:
-        while len(events) < most and (happened := kinetic.advance(scene._end)) is not None:
+        while len(events) < most and (happened := kinetic.advance(scene.exact_end)) is not None:
             events += summary(kinetic, happened)
     except ContactFound as found:
         contact = sorted(found.touches)
@@ -131,9 +131,9 @@ def test_many_at_once_equal_one_by_one(outcomes):
     for seed, chunk in enumerate((1, 7, 64)):
         scene = crowded(seed)
         _, expected, contact, single = run(scene)
-        kinetic, found, count = start_tiling(scene, "lazy", scene._start), None, 0
+        kinetic, found, count = start_tiling(scene, "lazy", scene.exact_start), None, 0
         try:
-            while done := kinetic.advance_many(scene._end, chunk):
+            while done := kinetic.advance_many(scene.exact_end, chunk):
                 assert done <= chunk
                 count += done
         except ContactFound as touching:
@@ -146,7 +146,7 @@ def test_many_at_once_equal_one_by_one(outcomes):
 
 def test_advance_many_stops_between_events(monkeypatch):
     scene = crowded(0)
-    kinetic, calls = start_tiling(scene, "lazy", scene._start), []
+    kinetic, calls = start_tiling(scene, "lazy", scene.exact_start), []
 
     def ask():
         calls.append(kinetic.stats.total)
@@ -155,13 +155,13 @@ def test_advance_many_stops_between_events(monkeypatch):
 
     monkeypatch.setattr(tilings, "check_budget", ask)
     with pytest.raises(BudgetExceeded):
-        kinetic.advance_many(scene._end, 1000)
+        kinetic.advance_many(scene.exact_end, 1000)
     assert kinetic.log.is_recording
     assert kinetic.contact_free_until is kinetic.certifier.now
     monkeypatch.undo()
     assert kinetic.stats.total >= 30
     events, _, _, _ = run(scene, kinetic.stats.total)
-    rest = [e for _ in range(20) for e in summary(kinetic, kinetic.advance(scene._end))]
+    rest = [e for _ in range(20) for e in summary(kinetic, kinetic.advance(scene.exact_end))]
     assert rest == run(scene, len(events) + len(rest))[0][len(events) :]
 
 
@@ -208,10 +208,10 @@ def test_an_end_within_an_enclosure_is_the_engines(monkeypatch, outcomes):
     scene = crowded(7)
     events, _, _, _ = run(scene, 60)
     ends = [
-        start_tiling(scene, "lazy", scene._start).vertices.normalization.exact_time(e[3])
+        start_tiling(scene, "lazy", scene.exact_start).vertices.normalization.exact_time(e[3])
         for e in events
     ]
-    kinetic, found = start_tiling(scene, "lazy", scene._start), []
+    kinetic, found = start_tiling(scene, "lazy", scene.exact_start), []
     for end in ends:
         while (happened := kinetic.advance(end)) is not None:
             found += summary(kinetic, happened)
@@ -245,9 +245,9 @@ def test_other_kinds_are_the_engines(monkeypatch, outcomes):
 
 def test_touching_zeros_are_the_engines():
     """A zero without change of sign may be a contact."""
-    kinetic = start_tiling(crowded(9), "lazy", crowded(9)._start)
-    first = kinetic.clock.pop(crowded(9)._end)[0]
-    kinetic = start_tiling(crowded(9), "lazy", crowded(9)._start)
+    kinetic = start_tiling(crowded(9), "lazy", crowded(9).exact_start)
+    first = kinetic.clock.pop(crowded(9).exact_end)[0]
+    kinetic = start_tiling(crowded(9), "lazy", crowded(9).exact_start)
     slot = kinetic.queue.first_alone(2.0)
     assert slot >= 0
     time = kinetic.queue.pending(slot)
@@ -306,13 +306,13 @@ def test_violated_signs_after_an_event_are_repaired(monkeypatch, outcomes):
 def test_wrong_coefficients_are_noticed(monkeypatch, outcomes, fault):
     """Planted: one coefficient in `places` is wrong, so that signs are violated after events."""
     scene = crowded(12, k=12)
-    kinetic = start_tiling(scene, "lazy", scene._start)
+    kinetic = start_tiling(scene, "lazy", scene.exact_start)
     for _ in range(10):
-        kinetic.advance(scene._end)
+        kinetic.advance(scene.exact_end)
     kinetic.vertices.places[WIDTH * kinetic.vertices.bodies[3].ring[0]] += fault
     outcomes.clear()
     with within(monotonic() + 60, None), pytest.raises(AuditError):
-        _audit_often(kinetic, scene._end)
+        _audit_often(kinetic, scene.exact_end)
     assert outcomes[DONE] > 0
 
 
@@ -320,14 +320,14 @@ def test_wrong_coefficients_are_noticed(monkeypatch, outcomes, fault):
 def test_small_errors_of_all_coefficients_are_noticed(fault):
     """Planted: x0 of every vertex is off, of coordinates up to 5,000; failures lie before now."""
     scene = crowded(12, k=12)
-    kinetic = start_tiling(scene, "lazy", scene._start)
+    kinetic = start_tiling(scene, "lazy", scene.exact_start)
     for _ in range(10):
-        kinetic.advance(scene._end)
+        kinetic.advance(scene.exact_end)
     ring = [v for body in kinetic.vertices.bodies for v in body.ring]
     for k, v in enumerate(ring):
         kinetic.vertices.places[WIDTH * v] += fault * (-1) ** k
     with within(monotonic() + 60, None), pytest.raises(AuditError):
-        _audit_often(kinetic, scene._end)
+        _audit_often(kinetic, scene.exact_end)
 
 
 def _audit_often(kinetic, end):

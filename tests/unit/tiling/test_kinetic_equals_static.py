@@ -113,11 +113,11 @@ def links(mesh):
 def test_changes(family):
     scene = generate(family, 4)
     for name in tilings_for(scene):
-        kinetic = start_tiling(scene, name, scene._start)
+        kinetic = start_tiling(scene, name, scene.exact_start)
         assert kinetic.changes() is None
         before = links(kinetic.mesh_after())
         try:
-            while kinetic.advance(scene._end) is not None:
+            while kinetic.advance(scene.exact_end) is not None:
                 now, changed = links(kinetic.mesh_after()), kinetic.changes()
                 if changed is not None:
                     different = {h for h, _ in before.items() ^ now.items()}
@@ -130,10 +130,10 @@ def test_changes(family):
 @every("family", POINTS)
 def test_the_mesh_of_points_is_the_one_of_its_trees(family):
     scene = generate(family, 5)
-    kinetic = start_tiling(scene, "incremental", scene._start)
+    kinetic = start_tiling(scene, "incremental", scene.exact_start)
     kinetic.mesh_after()
     try:
-        while kinetic.advance(scene._end) is not None:
+        while kinetic.advance(scene.exact_end) is not None:
             kept, built = kinetic.mesh_after(), mesh_of(kinetic.structure)
             assert links(kept) == links(built)
             for h in links(built):
@@ -145,7 +145,7 @@ def test_the_mesh_of_points_is_the_one_of_its_trees(family):
 
 def test_an_event_of_points_changes_little():
     scene = generate("linear_points", 3)
-    kinetic = start_tiling(scene, "incremental", scene._start)
+    kinetic = start_tiling(scene, "incremental", scene.exact_start)
     kinetic.changes()
-    kinetic.advance(scene._end)
+    kinetic.advance(scene.exact_end)
     assert 0 < len(kinetic.changes()) < len(kinetic.mesh_after().map.origin) / 2

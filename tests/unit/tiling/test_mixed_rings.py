@@ -118,7 +118,7 @@ def test_around_all_that_is_in_a_wide_hole_leads_its_convex_hull(seed):
     ]
     instant = instant_of(room(HOLE, *bodies))
     cycle = around(mixed_mesh(instant), instant.vertices, 0, 1)[::-1]
-    expected = hull([p for b in bodies for p in b._at(QQ(0))])
+    expected = hull([p for b in bodies for p in b.exact_at(QQ(0))])
     first = cycle.index(expected[0])
     assert [*cycle[first:], *cycle[:first]] == expected
 

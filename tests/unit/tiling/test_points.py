@@ -424,7 +424,7 @@ def test_scale_and_place_change_nothing(family, factor):
 
 def coordinates(body):
     """The polynomials x and y of a point that translates."""
-    track = body._piece_after(QQ(0)).tracks[0]
+    track = body.exact_piece_after(QQ(0)).tracks[0]
     return (
         [QQ(c) / track.w[0] + QQ(1, 7) * (i == 0) for i, c in enumerate(f)] or [QQ(1, 7)]
         for f in (track.x, track.y)

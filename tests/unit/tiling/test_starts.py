@@ -32,7 +32,7 @@ def crowded(k, seed=0):
 
 def state_after_start(scene, tiling):
     """The enclosures of a start; the rest that it has made; and its counts of decisions."""
-    kinetic = start_tiling(scene, tiling, scene._start)
+    kinetic = start_tiling(scene, tiling, scene.exact_start)
     queue, counters = kinetic.queue, kinetic.vertices.counters
     pending = [(slot, queue.pending(slot)) for slot in queue.slots()]
     vertices = kinetic.vertices
@@ -73,11 +73,14 @@ def compared(scene, monkeypatch):
 
 def arrays_of(bodies, time, unit=1.0):
     """The scene of the same bodies, polygons of doubles, in arrays."""
-    doubles = [body._shape.near for body in bodies]
+    doubles = [body.exact_shape.near for body in bodies]
     offsets = np.cumsum([0, *(len(near.xs) for near in doubles)])
     corners = [point for near in doubles for point in zip(near.xs, near.ys, strict=True)]
     paths = [
-        [[float(c) for c in (*f._coefficients, 0, 0)[:2]] for f in (body.motion.x, body.motion.y)]
+        [
+            [float(c) for c in (*f.exact_coefficients, 0, 0)[:2]]
+            for f in (body.motion.x, body.motion.y)
+        ]
         for body in bodies
     ]
     names = [body.name for body in bodies]
@@ -108,8 +111,8 @@ def doubled(seed, k=25, unit=1.0, span=1):
 
 
 def boxes_in_doubles(scene):
-    vertices = plan_tiling(scene, "lazy", scene._start).vertices
-    return near_pairs(vertices, scene._start)
+    vertices = plan_tiling(scene, "lazy", scene.exact_start).vertices
+    return near_pairs(vertices, scene.exact_start)
 
 
 @pytest.mark.parametrize("few", [0, 1 << 30])
@@ -167,7 +170,7 @@ def test_starts_of_bodies_of_doubles(unit, end, monkeypatch):
     """Of any size, for spans of any length: the normalization scales."""
     compared(doubled(0, unit=unit, span=end), monkeypatch)
     exact = arrays_of(crowded(25).bodies, (0, end), unit=unit)
-    assert linear_rows(exact.bodies, exact._start, exact._end) is not None
+    assert linear_rows(exact.bodies, exact.exact_start, exact.exact_end) is not None
     compared(exact, monkeypatch)
 
 
@@ -176,7 +179,7 @@ def test_bug_starts_at_times_beyond_doubles():
     bodies = [Body(f"b{k}", [(9 * k, 0), (9 * k + 1, 0), (9 * k, 1)]) for k in range(25)]
     scene = Scene(bodies, (10**400, 10**400 + 1))
 
-    assert linear_rows(scene.bodies, scene._start, scene._end) is None
+    assert linear_rows(scene.bodies, scene.exact_start, scene.exact_end) is None
     assert list(Simulation(scene).run()) == []
 
 
@@ -189,7 +192,7 @@ def test_bug_starts_of_extreme_bodies_gave_warnings(size, speed, start):
 
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        linear_rows(scene.bodies, scene._start, scene._end)
+        linear_rows(scene.bodies, scene.exact_start, scene.exact_end)
 
 
 def test_bug_rounded_positions_that_cancel_give_no_frame():
