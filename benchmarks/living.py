@@ -17,7 +17,7 @@ from exactpt import AuditError, Body, Bounce, Contact, Scene, Simulation, Transl
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.families.shapes import cells, convex_polygon
+from exactpt.testing.scenes.shapes import cells, convex_polygon
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FULL", "QUICK", "Living", "Sizes", "audit", "box", "run"]

@@ -14,7 +14,7 @@ from typing import Final, NamedTuple, TypeAlias
 from exactpt import AlgebraicNumber, Body, Scene, Translation
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.scene.families.shapes import cells, convex_polygon
+from exactpt.testing.scenes.shapes import cells, convex_polygon
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["FAMILIES", "Planted", "PlantedFamily"]

@@ -39,7 +39,7 @@ from exactpt import (
 from exactpt.cgal import check_proof, find_program
 from exactpt.kernel.numbers import QQ
 from exactpt.proof import certificate_of
-from exactpt.scene.generate import EVERY, generate
+from exactpt.testing.scenes import EVERY, generate
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -9,8 +9,8 @@ from typing import Final, NamedTuple, TypeAlias
 from exactpt import Body, Polynomial, Scene, Translation
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.scene.families.shapes import box, cells, convex_polygon, velocity
-from exactpt.scene.families.simple import star
+from exactpt.testing.scenes.shapes import box, cells, convex_polygon, velocity
+from exactpt.testing.scenes.simple import star
 
 __all__ = [
     "TANGLES",

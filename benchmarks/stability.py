@@ -26,8 +26,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.track import track
 from exactpt.pairs.contact import Contact
-from exactpt.scene.families.shapes import cells, convex_polygon, poly
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import cells, convex_polygon, poly
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -9,7 +9,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 import exactpt
-from exactpt.scene.families.shapes import convex_polygon
+from exactpt.testing.scenes.shapes import convex_polygon
 
 
 def table(count: int, rng: Random) -> tuple[exactpt.Scene, list[str]]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from exactpt.files import write_atomically
-from exactpt.scene.generate import EVERY, SPINNING, families
+from exactpt.testing.scenes import EVERY, SPINNING, families
 from exactpt.tiling.start import TILINGS
 from fuzz import awkward, battery, planted, soak
 from fuzz.campaign import INTERRUPTS

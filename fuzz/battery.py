@@ -15,8 +15,8 @@ from exactpt import Body, Contact, ExactPTError, Rigid, Scene, Simulation, Trans
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.families.degenerate import grids, rings
-from exactpt.scene.families.shapes import box, poly
+from exactpt.testing.scenes.degenerate import grids, rings
+from exactpt.testing.scenes.shapes import box, poly
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.witnesses import tilings_of
 

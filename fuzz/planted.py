@@ -37,7 +37,7 @@ from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.search import LinearSearch
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock

@@ -12,8 +12,8 @@ from typing import Final
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes import generate
 from fuzz import awkward
 from fuzz.thin import SUFFIX, thinned
 

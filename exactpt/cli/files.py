@@ -188,7 +188,7 @@ class _WithFamilies(click.Command):
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
-        from exactpt.scene.generate import CATALOGUE
+        from exactpt.testing.scenes import CATALOGUE
 
         headings = ("Convex bodies", "Simple polygons", "Points", "Rounded bodies",
                  "Bodies with holes and parts", "Bodies whose rings touch",
@@ -219,9 +219,9 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate stars -o stars.json
       exactpt generate grids_passing --seed 7 -o grids.json
     """
-    from exactpt.scene.generate import EVERY
-    from exactpt.scene.generate import generate as generated
     from exactpt.scene.written import save, to_json
+    from exactpt.testing.scenes import EVERY
+    from exactpt.testing.scenes import generate as generated
 
     if family not in EVERY:
         near = get_close_matches(family, EVERY, n=3) or ["convex"]

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 class Node:
     """A vertex of the scene and its position.
 
-    ``_x`` and ``_y`` are its coordinates at a rational time. Those at an irrational time,
+    ``exact_x`` and ``exact_y`` are its coordinates at a rational time. Those at an irrational time,
     ``_late``, are computed when they are read.
     """
 
@@ -138,7 +138,7 @@ class Snapshot:
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
     _time: AlgebraicNumber | None = None
-    """The irrational time just before ``_at``, at which the nodes are placed, or None."""
+    """The irrational time just before ``exact_at``, at which the nodes are placed, or None."""
 
     def __reduce__(self) -> tuple[object, ...]:
         at, time = str(self.exact_at), self._time

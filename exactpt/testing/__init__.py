@@ -4,18 +4,21 @@
 questions (`FAMILIES`), and counts right, missed, invented, early, late and crashed; what
 it finds is shrunken, and becomes a pytest file. `assert_same_contact` compares one answer;
 `shrink` makes a scene smaller as long as something fails. `exactpt.testing.strategies` has what
-Hypothesis draws scenes from (pip install 'exactpt[testing]'). docs/testing.md is the tutorial.
+Hypothesis draws scenes from (pip install 'exactpt[testing]'), and `exactpt.testing.scenes` the
+families of scenes of ``exactpt generate``. docs/testing.md is the tutorial.
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING, Final
 
-from exactpt.testing.checking import Counterexample, Report, check
-from exactpt.testing.comparing import assert_same_contact
-from exactpt.testing.families import FAMILIES, LINEAR, make_question
-from exactpt.testing.questions import Moving, Question
-from exactpt.testing.shrinking import shrink
-from exactpt.testing.table import Table
-from exactpt.testing.truth import Truth, truths
+if TYPE_CHECKING:
+    from exactpt.testing.checking import Counterexample, Report, check
+    from exactpt.testing.comparing import assert_same_contact
+    from exactpt.testing.families import FAMILIES, LINEAR, make_question
+    from exactpt.testing.questions import Moving, Question
+    from exactpt.testing.shrinking import shrink
+    from exactpt.testing.table import Table
+    from exactpt.testing.truth import Truth, truths
 
 __all__ = [
     "FAMILIES",
@@ -33,13 +36,35 @@ __all__ = [
     "truths",
 ]
 
+_MODULE_OF: Final = {
+    "Counterexample": "checking",
+    "Report": "checking",
+    "check": "checking",
+    "assert_same_contact": "comparing",
+    "FAMILIES": "families",
+    "LINEAR": "families",
+    "make_question": "families",
+    "Moving": "questions",
+    "Question": "questions",
+    "shrink": "shrinking",
+    "Table": "table",
+    "Truth": "truth",
+    "truths": "truth",
+}
+"""Names are imported on first use: whoever generates a scene needs none of them."""
+
+_PARTS: Final = ("scenes", "space", "strategies")
+"""Subpackages and modules that are public by themselves."""
+
 
 def __getattr__(name: str) -> object:
-    """Return the subpackage `space` or the module `strategies`, imported on first use (PEP 562)."""
-    if name in ("space", "strategies"):
+    """Return a public name or part of the package, imported on first use (PEP 562)."""
+    if name in _PARTS:
         return import_module(f"exactpt.testing.{name}")
+    if name in _MODULE_OF:
+        return getattr(import_module(f"exactpt.testing.{_MODULE_OF[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted({*__all__, "space", "strategies"})
+    return sorted({*__all__, *_PARTS})

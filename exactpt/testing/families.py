@@ -14,8 +14,8 @@ from typing import Final, NamedTuple, TypeAlias
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, power_of_two, shorten
-from exactpt.scene.families.shapes import box, convex_polygon, hull
 from exactpt.testing.questions import Moving, Question
+from exactpt.testing.scenes.shapes import box, convex_polygon, hull
 
 Number: TypeAlias = "QQ | int"
 Outline: TypeAlias = "Sequence[tuple[Number, Number]]"

@@ -20,11 +20,11 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import rational, shorten
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.scene.families.shapes import hull
-from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.scene import Scene
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Moving, Question
+from exactpt.testing.scenes import EVERY, generate
+from exactpt.testing.scenes.shapes import hull
 from exactpt.testing.space.families import make_query
 from exactpt.testing.space.queries import Kind, SpaceQuery
 

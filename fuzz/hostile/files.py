@@ -15,8 +15,8 @@ from exactpt.batch import run
 from exactpt.batch.chunks import digest_of
 from exactpt.batch.journal import SEAL
 from exactpt.proof.written import write_proof
-from exactpt.scene.generate import families
 from exactpt.simulation.store import sealed
+from exactpt.testing.scenes import families
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
 from fuzz.subscene import scene_of
 

@@ -18,8 +18,8 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import rational
 from exactpt.proof import Proof, certificate_of, certify
-from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.scene import Scene, scene_of
+from exactpt.testing.scenes import EVERY, generate
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import TooSlow, limit
 from fuzz.proofs.checking import checker

@@ -14,7 +14,7 @@ from random import Random
 from typing import Any, Final
 
 from exactpt import Body, InputError, PosePath, Scene, proof_check, proof_scene, prove
-from exactpt.scene.generate import families, generate
+from exactpt.testing.scenes import families, generate
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit
 from fuzz.proofs.checking import checker

@@ -15,8 +15,8 @@ from typing import Final, NamedTuple
 
 from exactpt import InputError, Scene, prove
 from exactpt.scene.format import loads
-from exactpt.scene.generate import families, generate
 from exactpt.scene.written import scene_bytes
+from exactpt.testing.scenes import families, generate
 from exactpt.tiling.start import tilings_for
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit

@@ -16,7 +16,7 @@ from unittest.mock import patch
 
 from exactpt import Body, BudgetExceeded, Contact, Pieces, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from fuzz.awkward import awkward
 from fuzz.questions.scenes import crowded_scene
 from fuzz.witnesses import tilings_of

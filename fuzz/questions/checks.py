@@ -25,10 +25,10 @@ from exactpt.pairs.start import initial_touches
 from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.shadow import shadow
-from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.start import start_tiling

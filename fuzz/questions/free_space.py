@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from exactpt import FreeSpace, Scene, Simulation, UnreachableError, first_contact
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from fuzz.awkward import awkward
 from fuzz.questions import brute
 from fuzz.questions.brute import Places, Point

@@ -7,7 +7,7 @@ from typing import Final
 
 from exactpt import Scene, clearance, distance
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from fuzz.awkward import awkward
 from fuzz.questions import reference
 from fuzz.subscene import subscene

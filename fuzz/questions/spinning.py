@@ -27,8 +27,8 @@ from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
-from exactpt.scene.generate import SPINNING
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes import SPINNING
 from fuzz.questions.true_turns import DIGITS, Approach, Real, Truth, UndecidedError, real
 
 __all__ = ["Case", "case_of", "path_scene", "spinning_scene"]

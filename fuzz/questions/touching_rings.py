@@ -40,7 +40,7 @@ from exactpt import (
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.motions import Motion
-from exactpt.scene.families.rings import as_parts, middle_of, touching_parts
+from exactpt.testing.scenes.rings import as_parts, middle_of, touching_parts
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.renewal import first_new_contact
 

@@ -3,7 +3,7 @@
 from exactpt.motion.body import Body
 from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.shadow import shadow
-from exactpt.scene.families.shapes import convex_polygon
+from exactpt.testing.scenes.shapes import convex_polygon
 
 
 def scattered(rng, count):

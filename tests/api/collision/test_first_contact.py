@@ -10,7 +10,7 @@ import pytest
 
 from exactpt import Body, Pieces, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.start import TILINGS
 from fuzz.questions.all_pairs import first_contact_allpairs
 

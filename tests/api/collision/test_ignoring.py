@@ -7,7 +7,7 @@ from commands import code_of
 from exactpt import Body, InputError, Scene, Translation, first_contact
 from exactpt.cli import cli
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 

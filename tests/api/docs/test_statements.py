@@ -19,7 +19,7 @@ from exactpt.cli.runs import collide
 from exactpt.motion import swept_edges
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs import search as linear_search
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 ROOT = Path(__file__).parents[3]
 FORMAT = (ROOT / "docs" / "format.md").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import pytest
 from commands import code_of
 
 from exactpt import Body, InputError, Scene, Translation, read_shapes, write_shapes
-from exactpt.scene.generate import RINGS, generate
+from exactpt.testing.scenes import RINGS, generate
 
 LAND = [(0, 0), (9, 0), (9, 9), (0, 9)]
 LAKE = [(1, 1), (8, 1), (8, 8), (1, 8)]

@@ -5,7 +5,7 @@ from random import Random
 import pytest
 
 from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation, contact_intervals, contacts
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.questions import reference
 from fuzz.questions.scenes import meeting_scene
 from fuzz.questions.tiny import pair_scene

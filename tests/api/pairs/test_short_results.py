@@ -19,7 +19,7 @@ from exactpt import (
     distance,
     first_contact,
 )
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 NAME = "a name that is much longer than anybody would like to read in a terminal " * 3
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]

@@ -7,7 +7,7 @@ from folding import every
 from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Pieces, Rigid, Scene, Spin, Translation, proof_check, prove
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 

@@ -19,7 +19,7 @@ from exactpt import (
     proof_scene,
 )
 from exactpt.cli import cli
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 

@@ -11,7 +11,7 @@ import shapely
 from commands import code_of
 
 from exactpt import Body, InputError, Scene, Translation
-from exactpt.scene.generate import ROUNDED, generate
+from exactpt.testing.scenes import ROUNDED, generate
 
 PILL = {"name": "pill", "vertices": [["0", "0"], ["2", "0"]], "radius": "1/2"}
 

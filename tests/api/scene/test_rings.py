@@ -7,7 +7,7 @@ import pytest
 
 from exactpt import Body, InputError, Scene, Translation
 from exactpt.scene.format import loads
-from exactpt.scene.generate import RINGS, generate
+from exactpt.testing.scenes import RINGS, generate
 
 BOX = [(0, 0), (9, 0), (9, 9), (0, 9)]
 HOLE = [(1, 1), (4, 1), (4, 4), (1, 4)]

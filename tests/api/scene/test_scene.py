@@ -14,7 +14,7 @@ from strategies import as_rational, fractions
 
 import exactpt
 from exactpt import AlgebraicNumber, Body, InputError, Pieces, Scene, Spin, Translation
-from exactpt.scene.generate import SPINNING, generate
+from exactpt.testing.scenes import SPINNING, generate
 
 grid = st.tuples(st.integers(0, 3), st.integers(0, 3))
 

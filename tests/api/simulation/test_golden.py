@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from exactpt import Bounce, Simulation
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 GOLDEN = Path(__file__).parents[2] / "data" / "golden"
 SCENES = [

@@ -22,7 +22,7 @@ from exactpt import (
 )
 from exactpt.kernel.numbers import QQ
 from exactpt.query.space import FreeSpace
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.tiling.start import start_tiling
 
 POINT = Body("p", [(0, 0)])

@@ -6,7 +6,7 @@ import pytest
 
 from exactpt import Body, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.tiling.start import TILINGS
 
 

@@ -164,7 +164,7 @@ def test_the_compiled_engine_takes_rules_in_plain_python(empty):
         f"sys.path.append({str(ROOT / 'tests' / 'helpers')!r})\n"
         "from ranked import RANKED, RankedRules\n"
         "from exactpt import Simulation, first_contact\n"
-        "from exactpt.scene.generate import generate\n"
+        "from exactpt.testing.scenes import generate\n"
         "from exactpt.tiling import catalogue\n"
         "catalogue.ENTRIES.append(RANKED)\n"
         "ranks = 0\n"

@@ -19,7 +19,7 @@ from exactpt.render.fixed import near
 from exactpt.render.page import page_of
 from exactpt.render.palette import body_colour
 from exactpt.render.still import still
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.browser
 

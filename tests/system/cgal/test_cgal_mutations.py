@@ -12,8 +12,8 @@ from exactpt import Simulation
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.check import check_scene
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import POINTS, RINGS, generate
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.scenes import POINTS, RINGS, generate
 from exactpt.tiling.start import TILINGS
 
 pytestmark = pytest.mark.cgal

@@ -10,7 +10,7 @@ import pytest
 from exactpt import BudgetExceeded, InputError, Scene, proof_check, proof_scene, prove
 from exactpt.cgal import check_proof
 from exactpt.check import check_scene
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 from fuzz import corpus
 
 pytestmark = pytest.mark.cgal

@@ -11,8 +11,8 @@ import pytest
 from commands import code_of
 
 from exactpt.files import write_atomically
-from exactpt.scene.generate import generate
 from exactpt.scene.written import save
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and links of a Unix")
 

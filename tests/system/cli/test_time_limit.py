@@ -13,8 +13,8 @@ from commands import code_of
 from exactpt.cli.alarm import time_limit
 from exactpt.errors import BudgetExceeded
 from exactpt.pairs import features_sweep as pairs
-from exactpt.scene.generate import generate
 from exactpt.scene.written import save
+from exactpt.testing.scenes import generate
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.isolated import LEFT, IsolatedEvents
 from exactpt.tiling.tiling import Tiling

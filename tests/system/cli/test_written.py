@@ -13,9 +13,9 @@ import pytest
 from commands import code_of
 
 from exactpt.files import write_atomically, writing
-from exactpt.scene.generate import generate
 from exactpt.scene.written import save
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and limits of a Unix")
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")

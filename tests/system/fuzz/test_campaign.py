@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from exactpt import InputError, Scene
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.tiling.start import tilings_for
 from fuzz import corpus
 from fuzz.__main__ import FAMILIES as FUZZED

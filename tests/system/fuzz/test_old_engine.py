@@ -9,7 +9,7 @@ from click.testing import CliRunner
 import exactpt
 from exactpt import Body, InputError, Scene, Translation
 from exactpt.errors import AuditError
-from exactpt.scene.generate import EVERY
+from exactpt.testing.scenes import EVERY
 from fuzz import __main__ as command
 from fuzz.cases import LEFT_OUT, Case, Scenes, run_case
 from fuzz.old_engine import build

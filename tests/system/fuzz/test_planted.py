@@ -22,7 +22,7 @@ from exactpt import (
 )
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import boxes
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.awkward import SUFFIX, awkward, awkward_variant
 from fuzz.planted import PLANTED, Found, _edited, hunt, table
 from fuzz.questions.all_pairs import first_contact_allpairs

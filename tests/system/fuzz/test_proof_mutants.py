@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import exactpt
 from exactpt import AuditError, Scene, check_apart, proof_check, proof_scene, prove
-from exactpt.scene.generate import EVERY, generate
+from exactpt.testing.scenes import EVERY, generate
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.limits import TooSlow
 from fuzz.proofs import apart, both, checking

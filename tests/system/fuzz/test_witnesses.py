@@ -11,8 +11,8 @@ from folding import every
 from exactpt import AlgebraicNumber, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, generate
 from exactpt.scene.written import to_json
+from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, generate
 from exactpt.tiling.start import TILINGS
 from fuzz import corpus
 from fuzz.cases import failure_of

@@ -27,7 +27,7 @@ import exactpt.testing
 from exactpt import check_apart, proof_check
 from exactpt.cli import all_commands
 from exactpt.cli.alarm import time_limit
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.long
 

@@ -16,10 +16,10 @@ from benchmarks import first_contact, planted, point_scenes
 from benchmarks.collision_set import passages
 from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
-from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.written import to_json
 from exactpt.testing.families import FAMILIES as QUESTIONS
 from exactpt.testing.families import make_question
+from exactpt.testing.scenes import EVERY, generate
 from exactpt.testing.space.families import FAMILIES as SPACE
 from exactpt.testing.space.families import make_query
 from fuzz.battery import BATTERY

@@ -10,9 +10,9 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import CONVEX, FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.scenes import CONVEX, FAMILIES, generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.start import make, plan_tiling

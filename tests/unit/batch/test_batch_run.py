@@ -17,7 +17,7 @@ from exactpt.batch import Options, answers, run
 from exactpt.batch.chunks import Chunk, Record, answered, digest_of, one_by_one, tally
 from exactpt.batch.lines import Lines
 from exactpt.errors import InputError
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.workers import processes
 
 TURNING = [json.dumps(generate("turning", seed).to_json()) for seed in range(3)]

@@ -16,7 +16,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 
 
 def place_of(vertices, v):

@@ -22,8 +22,8 @@ from exactpt.cli import main
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import candidate_pairs
 from exactpt.pairs.overlap import overlap
-from exactpt.scene.families.rings import as_parts, touching_parts
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
+from exactpt.testing.scenes.rings import as_parts, touching_parts
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.renewal import overlap as overlap_by_definition
 from fuzz.questions.tiny import pair_scene, touching_scene

@@ -8,7 +8,7 @@ import pytest
 
 from exactpt import Affine, Body, InputError, Planner, Scene, Translation, first_contact
 from exactpt.pairs import incidences
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 CROSSED = [(-1, 1), {"x": [2], "y": [1, 1]}, (-1, -1), {"x": [-1, 1], "y": [0]}]
 """It crosses itself at t = 1."""

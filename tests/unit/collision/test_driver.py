@@ -9,7 +9,7 @@ import pytest
 from exactpt import Body, BudgetExceeded, Scene, Translation, first_contact
 from exactpt.collision.driver import CHANGES, EVENTS, NOTHING, TIMES, Driver, Observer
 from exactpt.kernel.budget import Budget
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.tiling.tiling import Tiling
 
 ROOT = Path(__file__).parents[3]

@@ -8,7 +8,7 @@ import pytest
 from exactpt import Body, InputError, Pieces, Planner, Rigid, Scene, Translation, first_contact
 from exactpt.pairs import obstacles as prepared
 from exactpt.pairs import planner as planners
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 
 BOX = [(0, 0), (2, 0), (2, 1), (0, 1)]
 

@@ -6,7 +6,7 @@ import pytest
 
 from exactpt import Body, InputError, Planner, Rigid, Scene, Translation, first_contact
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.scene.generate import RINGS, generate
+from exactpt.testing.scenes import RINGS, generate
 from exactpt.tiling.start import TILINGS
 from fuzz.questions.all_pairs import first_contact_allpairs
 

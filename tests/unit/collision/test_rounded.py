@@ -29,7 +29,7 @@ from exactpt.pairs import search
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.proof import prove
-from exactpt.scene.generate import ROUNDED, generate
+from exactpt.testing.scenes import ROUNDED, generate
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 RIGHT = Translation([0, 1])

@@ -14,7 +14,7 @@ from exactpt.pairs import incidences, pieces
 from exactpt.pairs import search as linear_search
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.pieces import linear_pieces
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]

@@ -7,8 +7,8 @@ from commands import code_of, run
 
 from exactpt import Body, BudgetExceeded, Scene, Translation
 from exactpt.pairs import start as initial
-from exactpt.scene.generate import FAMILIES, POINTS
-from exactpt.scene.generate import generate as generated
+from exactpt.testing.scenes import FAMILIES, POINTS
+from exactpt.testing.scenes import generate as generated
 
 TOUCHING = """
 POLYGON ((0 0, 0.1 0, 0.1 0.1, 0 0))

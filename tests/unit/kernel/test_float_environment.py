@@ -18,8 +18,8 @@ from exactpt.errors import RoundingError
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.rounding import check_rounding
-from exactpt.scene.generate import FAMILIES, generate
 from exactpt.testing import space
+from exactpt.testing.scenes import FAMILIES, generate
 
 DOWN, UP, TO_ZERO, FTZ, DAZ = 0x2000, 0x4000, 0x6000, 0x8000, 0x0040
 """Bits of MXCSR, the control register of SSE."""

@@ -14,7 +14,7 @@ from exactpt.pairs import pieces
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.start import near_at_start, within_at_start
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.questions import reference
 from fuzz.questions.tiny import touching_scene
 

@@ -16,7 +16,7 @@ from exactpt.cli import cli
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.proof import certify_rows
 from exactpt.proof.paths import Paths
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, SPINNING, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, SPINNING, generate
 
 ROOT = Path(check_apart.__file__).parent.parent
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]

@@ -20,7 +20,7 @@ from exactpt import InputError, proof_check, proof_scene
 from exactpt.cli import cli
 from exactpt.proof.emit import ProofRun
 from exactpt.proof.handout import checker_file
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 
 @pytest.fixture
@@ -284,7 +284,7 @@ def test_nothing_that_is_malformed_crashes_the_checker(scene):
 @pytest.mark.long
 def test_a_proof_is_the_same_in_every_process():
     code = (
-        "from exactpt.proof import prove; from exactpt.scene.generate import generate;"
+        "from exactpt.proof import prove; from exactpt.testing.scenes import generate;"
         "print(*(prove(generate(f, 1), tiling='lazy').text for f in ('pieces', 'flat')))"
     )
     proofs = {

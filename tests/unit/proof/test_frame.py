@@ -11,7 +11,7 @@ from exactpt.check_apart import planes_of, side_of
 from exactpt.proof.frame import Frame
 from exactpt.proof.paths import DIRECTIONS, Paths, Plane
 from exactpt.proof.whole import WholeBodies
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 FAMILIES = ["convex", "keyframed", "turning", "deforming", "discs"]
 THIRD, FAR = Fraction(1, 3), 10**9

@@ -10,8 +10,8 @@ from exactpt import AuditError, Body, Scene, Translation, proof_scene
 from exactpt.kernel.numbers import QQ
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.format import loads
-from exactpt.scene.generate import generate
 from exactpt.scene.written import scene_bytes
+from exactpt.testing.scenes import generate
 from exactpt.tiling import engine, touching
 from fuzz.proofs.wrong import spliced, touching_and_going
 from fuzz.questions.all_pairs import first_contact_allpairs

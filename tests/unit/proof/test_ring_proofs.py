@@ -10,8 +10,8 @@ from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noq
 
 from exactpt import Body, Scene, Translation
 from exactpt.proof.lines import header
-from exactpt.scene.generate import RINGS, generate
 from exactpt.scene.written import scene_bytes
+from exactpt.testing.scenes import RINGS, generate
 from exactpt.tiling.start import TILINGS
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")

@@ -22,7 +22,7 @@ from exactpt import (
 )
 from exactpt.cli import cli
 from exactpt.proof.handout import checker_file
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, generate
 
 pytestmark = pytest.mark.cgal
 

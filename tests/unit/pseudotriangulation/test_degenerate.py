@@ -5,7 +5,7 @@ import pytest
 from exactpt import AlgebraicNumber, Simulation
 from exactpt.certificates.perturbation import comes_first
 from exactpt.pseudotriangulation import degenerate
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 pytestmark = pytest.mark.plain
 

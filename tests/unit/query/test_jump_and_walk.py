@@ -14,7 +14,7 @@ from exactpt.query.answers import PLACES
 from exactpt.query.nodes import Nodes
 from exactpt.query.ray import Ray
 from exactpt.query.subdivision import On, Spot
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.start import start_tiling
 
 

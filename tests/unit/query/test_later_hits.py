@@ -11,7 +11,7 @@ import pytest
 from exactpt import Body, Scene, Simulation
 from exactpt.query import nodes
 from exactpt.query.answers import Hit
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 
 @pytest.fixture(name="rays")

@@ -9,7 +9,7 @@ import pytest
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, UnreachableError
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import FAMILIES, RINGS
+from exactpt.testing.scenes import FAMILIES, RINGS
 from exactpt.tiling.start import start_tiling
 from fuzz.questions import brute
 from fuzz.questions.visibility_graph import VisibilityGraph, length_of

@@ -10,7 +10,7 @@ from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.course import Piece
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import FAMILIES, RINGS, generate
+from exactpt.testing.scenes import FAMILIES, RINGS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import start_tiling
 from fuzz.questions import brute

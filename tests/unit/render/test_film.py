@@ -16,8 +16,8 @@ from exactpt.render.film import film_of
 from exactpt.render.fixed import BITS, fixed, near
 from exactpt.render.page import page_of
 from exactpt.render.tracker import Tracker
-from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import generate
 
 
 def alive(spans, step):

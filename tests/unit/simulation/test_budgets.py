@@ -17,9 +17,9 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import check_budget, within
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import generate
 from exactpt.tiling.simultaneous import FailureGroup
 
 

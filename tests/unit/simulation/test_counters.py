@@ -10,7 +10,7 @@ import pytest
 import exactpt
 from exactpt import Body, InputError, Scene, Simulation, Translation
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 
 COUNTS = ("exact", "filtered", "reasons")
 SCENES = [generate("convex", 3), generate("small_grid", 3)]

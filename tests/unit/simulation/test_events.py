@@ -16,12 +16,12 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization
-from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import RunEvent
 from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 from exactpt.tiling.start import TILINGS, start_tiling
 
 CROWDS = ["convex", "ballistic", "stars", "letters", "blobs", "polygons_in_step"]

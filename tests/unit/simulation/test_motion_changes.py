@@ -10,11 +10,11 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import convex_polygon
-from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes.shapes import convex_polygon
+from exactpt.testing.scenes.simple import star
 from fuzz.statics import audit_at
 
 

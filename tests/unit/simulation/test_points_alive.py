@@ -8,7 +8,7 @@ import pytest
 
 from exactpt import Body, Pieces, Scene, Simulation, Translation, onward
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import POINTS, generate
+from exactpt.testing.scenes import POINTS, generate
 from tests.unit.simulation.test_motion_changes import audit, turn_back
 from tests.unit.simulation.test_save import check
 

@@ -9,8 +9,8 @@ from exactpt import AuditError, Body, InputError, Rigid, Scene, Simulation, Tran
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.region import Region
-from exactpt.scene.families.shapes import convex_polygon
-from exactpt.scene.families.simple import star
+from exactpt.testing.scenes.shapes import convex_polygon
+from exactpt.testing.scenes.simple import star
 from tests.unit.simulation.test_motion_changes import at, audit, crowd, some_plan, turn_back
 
 LOCAL = ["greedy", "lazy", "mixed"]

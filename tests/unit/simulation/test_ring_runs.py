@@ -5,7 +5,7 @@ import pytest
 from exactpt import Body, InputError, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.algebraic import rational_between
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID
-from exactpt.scene.generate import RINGS, generate
+from exactpt.testing.scenes import RINGS, generate
 from exactpt.tiling.start import TILINGS
 from fuzz.statics import audit_at, run_and_audit
 

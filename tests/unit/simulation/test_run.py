@@ -12,11 +12,11 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.motion_changes import onward, round_to_grid, translation_at
 from exactpt.simulation.responses import Bounce, stop
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import FAMILIES, generate
 
 sys.path.append(str(Path(__file__).parents[3] / "examples"))
 

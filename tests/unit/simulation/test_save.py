@@ -18,8 +18,8 @@ from exactpt import (
     Simulation,
     Translation,
 )
-from exactpt.scene.generate import FAMILIES, generate
 from exactpt.simulation.store import sealed
+from exactpt.testing.scenes import FAMILIES, generate
 
 
 def line(event):

@@ -6,8 +6,8 @@ import pytest
 
 from exactpt import Body, BudgetExceeded, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.generate import generate
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.scenes import generate
 from exactpt.tiling.start import TILINGS
 from fuzz.questions.all_pairs import first_contact_allpairs
 

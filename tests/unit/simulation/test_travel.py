@@ -26,7 +26,7 @@ from exactpt import (
     Translation,
 )
 from exactpt.motion.motions import REST
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 
 HUGE = 10**5000
 MOTIONS = [

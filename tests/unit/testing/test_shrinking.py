@@ -6,9 +6,9 @@ import pytest
 
 from exactpt import Body, Scene
 from exactpt.scene.format import loads
-from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.written import to_json
 from exactpt.testing import make_question
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.testing.shrinking import shrink, shrink_data, shrink_question
 
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from exactpt import Body, InputError, Rigid, Scene, first_contact
 from exactpt.geometry.predicates import orientation
-from exactpt.scene.generate import EVERY
 from exactpt.testing import FAMILIES, Question, strategies
+from exactpt.testing.scenes import EVERY
 from exactpt.testing.strategies import _monotone
 
 

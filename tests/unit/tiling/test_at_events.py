@@ -9,9 +9,9 @@ from exactpt.cgal import BodyShape
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import orientation
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.families.shapes import hull
-from exactpt.scene.generate import generate
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.scenes import generate
+from exactpt.testing.scenes.shapes import hull
 from exactpt.tiling.start import TILINGS
 
 FAMILIES = (

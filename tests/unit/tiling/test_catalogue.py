@@ -12,7 +12,7 @@ import exactpt
 from exactpt import AlgebraicNumber, Body, InputError, Scene, Simulation, first_contact
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.algebraic import rational_between
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for

@@ -14,7 +14,7 @@ from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.track import difference
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import SOLID
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling
 from fuzz import corpus

@@ -16,7 +16,7 @@ from exactpt.kernel.rounding import UNSURE
 from exactpt.motion.vertices import MOTION as AT_MOTION
 from exactpt.motion.vertices import OTHER_MOTION, WIDTH
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import tiling as tilings
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.greedy import VerticalRules

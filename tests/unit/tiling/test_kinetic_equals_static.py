@@ -6,7 +6,7 @@ import pytest
 from folding import every
 
 from exactpt.indices import NO_VERTEX
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.incremental.mesh import mesh_of
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for

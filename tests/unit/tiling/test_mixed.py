@@ -18,7 +18,7 @@ from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.pseudotriangulation.plane_sweep import Sweep, body_edges
 from exactpt.pseudotriangulation.shadow import shadow
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh

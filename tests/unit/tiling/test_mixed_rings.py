@@ -13,8 +13,8 @@ from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.mesh import FREE
-from exactpt.scene.families.shapes import hull
-from exactpt.scene.generate import RINGS, generate
+from exactpt.testing.scenes import RINGS, generate
+from exactpt.testing.scenes.shapes import hull
 from exactpt.tiling.mixed.forest import Forest
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.static import mixed_mesh

@@ -13,7 +13,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
-from exactpt.scene.generate import POINTS, generate
+from exactpt.testing.scenes import POINTS, generate
 from exactpt.tiling.incremental.fan import chain, fan_edges
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.paths import SearchableTree

@@ -10,8 +10,8 @@ from exactpt.certificates.perturbation import comes_first
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.pseudotriangulation.audit import audit_angles
-from exactpt.scene.families.shapes import box
-from exactpt.scene.generate import generate
+from exactpt.testing.scenes import generate
+from exactpt.testing.scenes.shapes import box
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules

@@ -20,8 +20,8 @@ from exactpt.pseudotriangulation.shadow import (
     visit_after,
     visit_before,
 )
-from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.scenes import generate
 from exactpt.tiling.greedy import shadows
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules

@@ -17,7 +17,7 @@ from exactpt.motion.vertices import HORIZON, WIDTH
 from exactpt.pairs import start
 from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.pseudotriangulation import build, stars
-from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import angles
 from exactpt.tiling.start import plan_tiling, start_tiling, tilings_for
 

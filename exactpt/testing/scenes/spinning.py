@@ -10,8 +10,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Coefficients, Translation
 from exactpt.motion.spin import Spin
-from exactpt.scene.families.shapes import box
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import box
 
 ERRORS = ["1/50", "1/1000", "1/1000", "1e-6", "1e-9"]
 """Errors of an angle."""

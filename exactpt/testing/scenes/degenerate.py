@@ -10,8 +10,8 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, in_cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import box, cells, in_cells, poly, shape, velocity
 
 
 def small_grid(rng: Random) -> Scene:

@@ -11,7 +11,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Position, Rigid, Translation
 from exactpt.motion.rings import PartLike
-from exactpt.scene.families.shapes import (
+from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import (
     box,
     cells,
     convex_polygon,
@@ -22,8 +23,7 @@ from exactpt.scene.families.shapes import (
     valid_scene,
     velocity,
 )
-from exactpt.scene.families.simple import star
-from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.simple import star
 
 QUARTER = [(5, 0), (4, 3), (3, 4)]
 """Directions of length 5 from the first axis to the second one."""

@@ -9,8 +9,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, poly, shape, valid_scene, velocity
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import box, cells, poly, shape, valid_scene, velocity
 
 # Directions around a circle in order, exact and of about equal length.
 _CIRCLE = [

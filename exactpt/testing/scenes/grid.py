@@ -10,8 +10,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import cells, is_valid, points_near, valid_scene
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import cells, is_valid, points_near, valid_scene
 
 RADIUS: Final = 2
 ATTEMPTS: Final = 20

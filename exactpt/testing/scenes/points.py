@@ -9,8 +9,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
-from exactpt.scene.families.shapes import poly, velocity
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import poly, velocity
 
 
 def _points(positions: list[tuple[QQ | int, QQ | int]], motions: Sequence[Motion]) -> list[Body]:

@@ -8,8 +8,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, convex_polygon, poly, valid_scene, velocity
 from exactpt.scene.scene import Scene
+from exactpt.testing.scenes.shapes import box, cells, convex_polygon, poly, valid_scene, velocity
 
 TRIPLES = [(3, 4, 5), (5, 12, 13), (8, 15, 17), (1, 0, 1), (0, 2, 2)]
 """Legs and hypotenuse of right triangles."""

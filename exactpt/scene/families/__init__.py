@@ -1,1 +1,0 @@
-"""Scene families, from generic to fully degenerate; see `exactpt.scene.generate`."""
