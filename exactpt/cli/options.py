@@ -102,6 +102,12 @@ TILING = click.option(
 )
 
 
+def fan_option(words: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return the option that requests the fan triangulation, with its effect on a command."""
+    scope = "for points, in the tiling incremental; other scenes and tilings are refused"
+    return click.option("--fan", is_flag=True, help=f"{words} ({scope}).")
+
+
 IGNORE = click.option(
     "--ignore",
     multiple=True,

@@ -19,6 +19,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    fan_option,
     keep_input,
     load,
     names_in,
@@ -207,6 +208,7 @@ def _first_contact(
 @click.option("-v", "--verbose", is_flag=True, help="Print one event per line, in words.")
 @QUIET
 @TILING
+@fan_option('Report the changes of the fan triangulation as events of kind "fan"')
 @click.option(
     "--proof",
     metavar="FOLDER",
@@ -221,6 +223,7 @@ def simulate(
     verbose: bool,
     quiet: bool,
     tiling: str,
+    fan: bool,
     proof: Path | None,
     max_events: int | None,
     max_seconds: float | None,
@@ -233,6 +236,7 @@ def simulate(
       exactpt simulate scene.json --events events.jsonl --until 5
       exactpt simulate scene.json --verbose --max-events 20
       exactpt simulate scene.json --proof folder
+      exactpt simulate points.json --fan --events events.jsonl
     """
     import exactpt.simulation.simulation  # noqa: F401 - BLAS ends a process that has no memory
     from exactpt.files import writing
@@ -252,6 +256,7 @@ def simulate(
             report,
             quiet=quiet or verbose,
             tiling=tiling,
+            fan=fan,
             proof=proof,
             max_events=max_events,
             max_seconds=max_seconds,
@@ -278,6 +283,7 @@ def _run(
     *,
     quiet: bool,
     tiling: str,
+    fan: bool,
     proof: Path | None,
     max_events: int | None,
     max_seconds: float | None,
@@ -293,6 +299,7 @@ def _run(
             simulation = Simulation(
                 given,
                 tiling=tiling,
+                fan=fan,
                 max_events=max_events,
                 max_seconds=max_seconds,
                 proof=proof,

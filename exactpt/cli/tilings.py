@@ -18,6 +18,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    fan_option,
     keep_input,
     load,
     naming_at,
@@ -35,6 +36,7 @@ from exactpt.kernel.numbers import QQ, rational
 @click.option("--at", type=RATIONAL, help="The time; by default the start.")
 @click.option("--run", "by_running", is_flag=True, help="Simulate from the start up to that time.")
 @TILING
+@fan_option('Require "fan", the edges of the fan triangulation that the tiling lacks')
 @output("Write to a file.")
 @budget
 def tile(
@@ -42,6 +44,7 @@ def tile(
     at: QQ | None,
     by_running: bool,
     tiling: str,
+    fan: bool,
     output: Path | None,
     max_events: int | None,
     max_seconds: float | None,
@@ -56,6 +59,7 @@ def tile(
       exactpt tile scene.json
       exactpt tile scene.json --at 5/2 -o tiling.json
       exactpt tile scene.json --at 5/2 --run
+      exactpt tile points.json --fan
     """
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
@@ -68,6 +72,7 @@ def tile(
             given.exact_start if at is None else at,
             tiling=tiling,
             by_running=by_running,
+            fan=fan,
             max_events=max_events,
             max_seconds=max_seconds,
         )

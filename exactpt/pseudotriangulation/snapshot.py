@@ -12,9 +12,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.brief import call_in_brief, counted, cut, record_in_brief
+from exactpt.errors import InputError
 from exactpt.geometry.predicates import orientation
 from exactpt.indices import HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -26,6 +27,10 @@ from exactpt.pseudotriangulation.mesh import FREE, INSIDE
 if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
     from exactpt.pseudotriangulation.mesh import Mesh
+
+
+_WITH_FAN: Final = "incremental"
+"""The name of the tiling that has a fan."""
 
 
 @final
@@ -164,8 +169,16 @@ class Snapshot:
         """The edges that refine an incremental tiling to the fan triangulation (paper, 3.4).
 
         They join the last corner in x-order of every face to its vertices that are not
-        corners.
+        corners. With ``edges`` they are the fan triangulation.
+
+        Raises:
+            InputError: if it is another tiling, which has no fan.
         """
+        if self.tiling != _WITH_FAN:
+            raise InputError(
+                f"fan: only the {_WITH_FAN} tiling of points has a fan triangulation, "
+                f"got the {self.tiling} tiling"
+            )
         edges = []
         for face in self.faces:
             tip = max(face.corners, key=lambda v: (self.nodes[v].exact_x, -self.nodes[v].exact_y))
@@ -194,7 +207,7 @@ class Snapshot:
             "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],
             "faces": faces,
         }
-        if self.tiling == "incremental":
+        if self.tiling == _WITH_FAN:
             data["fan"] = [list(edge) for edge in self.fan]
         return data
 

@@ -25,8 +25,9 @@ class RunEvent:
 
     Attributes:
         time: the exact time.
-        kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion" or "contact".
-        removed, added: edges of the tiling, as pairs of names "body:vertex".
+        kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion", "fan" or "contact".
+        removed, added: edges of the tiling, as pairs of names "body:vertex"; edges of the fan
+            triangulation, if the kind is "fan".
     """
 
     __slots__ = ("_added", "_kind", "_removed", "_time")

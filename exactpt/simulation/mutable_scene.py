@@ -27,11 +27,13 @@ class Choice(NamedTuple):
         requested: the tiling of the caller: "auto" or one of `TILINGS`.
         name: the name of the one chosen at the start.
         exact_only: whether the float filters are off.
+        fan: whether the fan triangulation is maintained.
     """
 
     requested: str
     name: str
     exact_only: bool
+    fan: bool = False
 
 
 @final
@@ -183,22 +185,45 @@ class MutableScene(TiledScene):
         return events_of(self.kinetic, events)
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[RunEvent]:
-        """Rebuild the tiling for these bodies; a single event lists the difference in edges."""
-        before = self._diagonals()
+        """Rebuild the tiling for these bodies; a single event lists the difference in edges.
+
+        A second event lists the difference of the fan triangulation, if it is maintained.
+        """
+        before, fan_before = self._diagonals(), self._fan()
         scene = self._end.going_on(bodies, t)
         choice = self.choice
-        kinetic = plan_tiling(scene, choice.requested, t).start(t, exact_only=choice.exact_only)
+        plan = plan_tiling(scene, choice.requested, t, fan=choice.fan)
+        kinetic = plan.start(t, exact_only=choice.exact_only)
         kinetic.take_over_counts(self.kinetic)
         kinetic.stats.count("motion")
         kinetic.stats.rebuilds += 1
         self.tiling, self._scene, self._is_new, self._since = kinetic, scene, False, t
         self._set_bodies(bodies)
         self.changes += changes
-        after = self._diagonals()
-        removed, added = sorted(before - after), sorted(after - before)
-        return [RunEvent(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
+        events = [_difference("motion", t, before, self._diagonals())]
+        fan = kinetic.fan
+        if fan is not None:
+            changed = _difference("fan", t, fan_before, self._fan())
+            fan.changes += len(changed.removed) + len(changed.added)
+            if changed.removed or changed.added:
+                events.append(changed)
+        return events
+
+    def _fan(self) -> set[tuple[str, str]]:
+        """Return the edges of the fan triangulation by name; none if it is not maintained."""
+        name, fan = self.kinetic.vertices.name, self.kinetic.fan
+        ends = () if fan is None else fan.edges
+        return {(min(pair), max(pair)) for u, v in ends for pair in [(name(u), name(v))]}
 
     def _diagonals(self) -> set[tuple[str, str]]:
         name, mesh = self.kinetic.vertices.name, self.kinetic.mesh_after()
         ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
         return {(u, v) for u, v in ends if u != v}
+
+
+def _difference(
+    kind: str, t: QQ, before: set[tuple[str, str]], after: set[tuple[str, str]]
+) -> RunEvent:
+    """Return the event at which edges have been replaced by others."""
+    removed, added = sorted(before - after), sorted(after - before)
+    return RunEvent(AlgebraicNumber(t), kind, tuple(removed), tuple(added))

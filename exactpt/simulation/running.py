@@ -286,13 +286,14 @@ def begin(
     budget: Budget,
     *,
     exact_only: bool,
+    fan: bool = False,
     observers: Sequence[Observer] = (),
     log: Log | None = None,
 ) -> Run:
     """Return the run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
-        plan = plan_tiling(scene, tiling, scene.exact_start)
-        mutable = MutableScene(scene, None, Choice(tiling, plan.name, exact_only))
+        plan = plan_tiling(scene, tiling, scene.exact_start, fan=fan)
+        mutable = MutableScene(scene, None, Choice(tiling, plan.name, exact_only, fan))
         run = Run(mutable, budget, observers)
         run.log = log
         contact = run.driver.start(plan, exact_only=exact_only)

@@ -102,7 +102,10 @@ def tiling_from_json(data: Stored, bodies: Sequence[Body], last: QQ, *, exact_on
     _check_pieces(data["bodies"], vertices, now)
     for name in _CERTIFICATE_COUNTS:
         setattr(certifier, name, data["counts"][name].integer(0))
-    kinetic = make(entry, vertices, certifier, _stats_from_json(data["stats"]))
+    fan = "fan" in data
+    if fan and not entry.has_fan:
+        raise data["fan"].refused(f"no fan, which the {entry.name} tiling does not have")
+    kinetic = make(entry, vertices, certifier, _stats_from_json(data["stats"]), fan=fan)
     kinetic.resume(data)
     for item in data["queue"].entries():
         check_budget()

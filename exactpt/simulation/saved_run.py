@@ -68,7 +68,6 @@ def run_from_json(data: Stored, scene: Scene, budget: Budget) -> Run:
     data.with_keys(*KEYS)
     counts, state, contact, met = data["counts"], data["state"], data["contact"], data["met"]
     exact_only = data["exact_only"].flag()
-    choice = Choice(data["tiling"].text(known()), data["name"].text(known()), exact_only)
     kinetic = None
     if not state.is_null:
         kinetic = tiling_from_json(state, scene.bodies, scene.exact_end, exact_only=exact_only)
@@ -77,6 +76,9 @@ def run_from_json(data: Stored, scene: Scene, budget: Budget) -> Run:
         kinetic.vertices.counters.set(before)
     elif contact.is_null:
         raise state.refused("a tiling, since bodies do not touch at the start")
+    has_fan = kinetic is not None and kinetic.fan is not None
+    requested, name = data["tiling"].text(known()), data["name"].text(known())
+    choice = Choice(requested, name, exact_only, has_fan)
     begun = data["begun"].rational()
     if begun > scene.exact_start:
         raise data["begun"].refused("a time up to the start of the scene")

@@ -59,6 +59,10 @@ class Simulation:
         scene: the bodies, their motions and the time span.
         tiling: the tiling to keep: "auto" or one of `TILINGS`.
         exact_only: whether exact arithmetic decides everything, without the float filters.
+        fan: whether the fan triangulation of points is maintained too. Its changes at a time are
+            an event of kind "fan", the last one of that time, and are counted in
+            ``stats["fan_changes"]``; pictures show its edges. It needs the tiling "incremental",
+            which "auto" is for points.
         max_events: maximum number of reported events; None for no limit.
         max_seconds: time limit in seconds of wall-clock time; None for no limit. It holds in any
             thread, from the construction on. A run that reaches it between two events can go on
@@ -75,8 +79,9 @@ class Simulation:
 
     Raises:
         BudgetExceeded: if the time or memory is used up before the run begins.
-        InputError: if the scene is none, the tiling does not exist or does not support the bodies,
-            a bound is not a number >= 0, or the folder contains proofs or cannot be made.
+        InputError: if the scene is none, the tiling does not exist or does not support the bodies
+            or the fan, a bound is not a number >= 0, or the folder contains proofs or cannot be
+            made.
     """
 
     def __init__(
@@ -85,6 +90,7 @@ class Simulation:
         *,
         tiling: str = "auto",
         exact_only: bool = False,
+        fan: bool = False,
         max_events: int | None = None,
         max_seconds: float | None = None,
         max_memory: int | None = None,
@@ -96,7 +102,7 @@ class Simulation:
         observers = [] if proof is None else [extension("proofs of a simulation")(proof)]
         log = Log(scene) if record else None
         self._run = begin(
-            scene, tiling, budget, exact_only=exact_only, observers=observers, log=log
+            scene, tiling, budget, exact_only=exact_only, fan=fan, observers=observers, log=log
         )
         self._spaces = SpaceCache()
 
@@ -402,6 +408,7 @@ class Simulation:
 
         An animation (.html) or film (.gif, .mp4) of the run, which must be remembered
         (``record=True``), has the contacts, new motions, arrivals and departures on its ruler.
+        The edges of the fan, if it is maintained (``fan=True``), are dashed.
 
         Args:
             path: the file; it is complete or not there.

@@ -18,6 +18,7 @@ def tile_at(
     *,
     tiling: str = "auto",
     by_running: bool = False,
+    fan: bool = False,
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Snapshot:
@@ -28,11 +29,13 @@ def tile_at(
         at: the rational time.
         tiling: the name of the tiling, or "auto".
         by_running: whether to run from the start to that time; otherwise it is built at that time.
+        fan: whether the tiling must have a fan triangulation, which `Snapshot.fan` lists; a run
+            then maintains it.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
 
     Raises:
-        InputError: if the tiling does not exist, or does not support these bodies.
+        InputError: if the tiling does not exist, or does not support these bodies or the fan.
         TimeRangeError: if the time is outside the span, or not before the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
@@ -41,10 +44,12 @@ def tile_at(
             f"t = {show(at)} is outside the time span "
             f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
         )
-    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene.exact_start).name, at)
+    name = plan_tiling(scene, tiling, scene.exact_start, fan=fan).name
+    plan = plan_tiling(scene, name, at)
     simulation = Simulation(
         scene,
         tiling=tiling if by_running else tiling_for_contact(scene, AUTO),
+        fan=fan and by_running,
         max_events=max_events,
         max_seconds=max_seconds,
     )

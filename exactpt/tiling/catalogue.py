@@ -30,6 +30,8 @@ class Entry(NamedTuple):
         is_canonical: whether the tiling is determined by the positions alone, not by the past.
         has_fewest_events: whether it is preferred where only the first contact is wanted.
         has_relative_hulls: whether its mesh contains the shortest loop around every body.
+        has_fan: whether it can maintain the fan triangulation (paper, section 3.4): its class
+            then has an argument ``fan``.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Entry(NamedTuple):
     is_canonical: bool = True
     has_fewest_events: bool = False
     has_relative_hulls: bool = False
+    has_fan: bool = False
 
     @property
     def is_for_convex(self) -> bool:
@@ -54,6 +57,7 @@ ENTRIES: Final = [
         Bodies.POINTS,
         "exactpt.tiling.incremental.incremental:IncrementalTiling",
         has_fewest_events=True,
+        has_fan=True,
     ),
     Entry("greedy", Bodies.CONVEX, "exactpt.tiling.greedy.greedy:VerticalRules"),
     Entry("mixed", Bodies.ANY, "exactpt.tiling.mixed.mixed:MixedRules", has_relative_hulls=True),

@@ -22,8 +22,9 @@ class TilingEvent:
 
     Attributes:
         time: the time of the event.
-        kind: "corner", "reflex", "hull", "diagonal", "motion", "x-order" or "contact".
-        removed, added: the edges removed and added, as pairs of vertex ids.
+        kind: "corner", "reflex", "hull", "diagonal", "motion", "x-order", "fan" or "contact".
+        removed, added: the edges removed and added, as pairs of vertex ids; of the fan
+            triangulation, if the kind is "fan".
     """
 
     __slots__ = ("added", "kind", "removed", "time")
@@ -107,6 +108,11 @@ class Log:
             self.stats.count(kind)
             if self.is_recording:
                 self._events.append(TilingEvent(self._certifier.now, kind, removed, added))
+
+    def record_fan(self, removed: Edges, added: Edges) -> None:
+        """Record a change of the fan triangulation, which is no event of the tiling's counts."""
+        if self.is_recording:
+            self._events.append(TilingEvent(self._certifier.now, "fan", removed, added))
 
     def take(self) -> list[TilingEvent]:
         """Return the events not yet reported, which then count as reported."""

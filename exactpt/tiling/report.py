@@ -33,6 +33,7 @@ def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
     internal = sum(by_kind.get(kind, 0) for kind in ("internal", "motion"))
     external = stats.total - internal
     touched = certifier.made + certifier.skipped
+    fan = {} if kinetic.fan is None else {"fan_changes": kinetic.fan.changes}
     most, mean = _locality(kinetic)
     return data | {
         "events": stats.total,
@@ -50,6 +51,7 @@ def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
         "rebuilds": stats.rebuilds,
         "flips": stats.flips,
         "zeros": certifier.zeros,
+        **fan,
     }
 
 

@@ -39,11 +39,13 @@ class TilingPlan(NamedTuple):
         entry: its entry in the catalogue.
         vertices: the moving vertices.
         end: end of the time span.
+        fan: whether the fan triangulation is maintained.
     """
 
     entry: Entry
     vertices: Vertices
     end: QQ
+    fan: bool = False
 
     @property
     def name(self) -> str:
@@ -53,7 +55,7 @@ class TilingPlan(NamedTuple):
     def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
         """Return the kinetic tiling just after a time at which the bodies are disjoint."""
         certifier = Certifier(self.vertices, time, self.end, exact_only=exact_only)
-        tiling = make(self.entry, self.vertices, certifier, Stats())
+        tiling = make(self.entry, self.vertices, certifier, Stats(), fan=self.fan)
         with collector_at_rest():
             tiling.begin(time)
         return tiling
@@ -85,15 +87,21 @@ def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False
         return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
 
 
-def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
+def plan_tiling(scene: Scene, name: str, start: QQ, *, fan: bool = False) -> TilingPlan:
     """Return the tiling of a given name; "auto" chooses by the shapes.
 
     "auto" is "incremental" if all bodies are points, "greedy" if all bodies stay convex until
     the end, and "mixed" otherwise.
 
+    Args:
+        scene: the scene.
+        name: the name of the tiling, or "auto".
+        start: the time at which the tiling is built.
+        fan: whether the fan triangulation is maintained too.
+
     Raises:
         InputError: if the tiling does not exist, is for points and a body is not one, or a body
-            is rounded.
+            is rounded; or if a fan triangulation is requested, and the tiling has none.
     """
     bodies, end = scene.bodies, scene.exact_end
     refuse_untileable(bodies)
@@ -110,8 +118,10 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
             points=_are_points(bodies),
             convex=lambda: all_stay_convex(PredicatesAt(vertices(), start)),
         )
+        if fan and not entry.has_fan:
+            raise _no_fan(entry, bodies)
         if entry.bodies is Bodies.POINTS:
-            return TilingPlan(entry, _vertices_of_points(entry, bodies, start, end), end)
+            return TilingPlan(entry, _vertices_of_points(entry, bodies, start, end), end, fan)
         vertices().counters = Counters()  # decisions made for the choice are not part of the run
         return TilingPlan(entry, vertices(), end)
 
@@ -131,11 +141,37 @@ def _vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ
     return Vertices.of(bodies, start, end, plain=True)
 
 
-def make(entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats) -> Tiling:
-    """Return the tiling, still without a mesh; `Tiling.begin` or `Tiling.resume` must follow."""
+def _no_fan(entry: Entry, bodies: Sequence[Body]) -> InputError:
+    """Return the error about a fan triangulation that a tiling of these bodies does not have."""
+    polygon = next((body for body in bodies if body.size > 1), None)
+    if polygon is not None:
+        return InputError(
+            f"fan: only points have a fan triangulation, got body {shorten(polygon.name)} with "
+            f"{polygon.size} vertices; leave the fan out"
+        )
+    return InputError(
+        f"fan: only the incremental tiling has a fan triangulation, got the {entry.name} tiling; "
+        "leave the fan out, or choose the tiling incremental or auto"
+    )
+
+
+def make(
+    entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats, *, fan: bool = False
+) -> Tiling:
+    """Return the tiling, still without a mesh; `Tiling.begin` or `Tiling.resume` must follow.
+
+    Args:
+        entry: its entry in the catalogue.
+        vertices: the moving vertices.
+        certifier: certificates and the current time.
+        stats: the counts of the run.
+        fan: whether the fan triangulation is maintained, by a tiling that has one.
+    """
     loaded = _load(entry)
     if entry.bodies is Bodies.POINTS:
-        tiling: Tiling = loaded(entry, vertices, certifier, stats)
+        # Only with a fan: the classes of other tilings need not have that argument.
+        options = {"fan": True} if fan else {}
+        tiling: Tiling = loaded(entry, vertices, certifier, stats, **options)
         return tiling
     return Engine(entry, loaded, vertices, certifier, stats)
 

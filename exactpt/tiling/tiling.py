@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from exactpt.certificates.at_time import PredicatesAt
     from exactpt.motion.body import Body
     from exactpt.pseudotriangulation.mesh import Mesh
+    from exactpt.tiling.incremental.fan import Fan
 
 FEW: Final = 16
 """Number of event times from one look at the budget to the next."""
@@ -46,6 +47,7 @@ class Tiling(ABC):
         log: the record of events.
         contact_free_until: the last time up to which it has been advanced without a contact;
             None before.
+        fan: the fan triangulation; None if it is not maintained.
     """
 
     def __init__(
@@ -58,6 +60,7 @@ class Tiling(ABC):
         self.clock: Clock = Clock(certifier, self.table, vertices.normalization)
         self.log: Log = Log(certifier, stats)
         self.contact_free_until: EventTime | None = None
+        self.fan: Fan | None = None
 
     @abstractmethod
     def begin(self, start: QQ) -> None:
@@ -251,6 +254,8 @@ class Tiling(ABC):
         self.certifier.skipped += other.certifier.skipped
         self.certifier.zeros += other.certifier.zeros
         self.vertices.counters.add(other.vertices.counters.now())
+        if self.fan is not None and other.fan is not None:
+            self.fan.changes += other.fan.changes
 
     def __reduce__(self) -> tuple[object, ...]:
         raise TypeError("the tiling of a run is copied and pickled with its simulation")

@@ -7,7 +7,7 @@ triangulation. `fan_edges` derives its edges from the two trees, `Fan` changes t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import final
+from typing import NamedTuple, final
 
 from exactpt.indices import Ends, VertexId
 from exactpt.planar.halfedge import edge_key
@@ -42,6 +42,13 @@ def fan_edges(structure: IncrementalStructure) -> Iterator[Ends]:
             yield p, z
 
 
+class FanChanges(NamedTuple):
+    """Edges of the fan triangulation that have been removed and added, as of `edge_key`."""
+
+    removed: tuple[Ends, ...]
+    added: tuple[Ends, ...]
+
+
 @final
 class Fan:
     """The fan triangulation of points that move.
@@ -57,6 +64,9 @@ class Fan:
     def __init__(self) -> None:
         self.edges: set[Ends] = set()
         self.changes: int = 0
+        # The changes since the last `take_changes`, without those that cancel each other.
+        self._removed: set[Ends] = set()
+        self._added: set[Ends] = set()
 
     def begin(self, structure: IncrementalStructure) -> None:
         """Derive the edges from the trees; this is not a change."""
@@ -66,7 +76,16 @@ class Fan:
         """Derive the edges from the trees, after simultaneous events; changes are counted."""
         old = self.edges
         self.begin(structure)
-        self.changes += len(old ^ self.edges)
+        for edge in old - self.edges:
+            self._note(edge, is_added=False)
+        for edge in self.edges - old:
+            self._note(edge, is_added=True)
+
+    def take_changes(self) -> FanChanges:
+        """Return the changes since the last call, sorted, which then count as reported."""
+        changes = FanChanges(tuple(sorted(self._removed)), tuple(sorted(self._added)))
+        self._removed, self._added = set(), set()
+        return changes
 
     def repair(
         self, structure: IncrementalStructure, side: int, moved: Ends, middle: VertexId
@@ -119,8 +138,20 @@ class Fan:
                 v = w
 
     def _change(self, p: VertexId, z: VertexId, *, is_added: bool) -> None:
-        self.changes += 1
+        edge = edge_key(p, z)
         if is_added:
-            self.edges.add(edge_key(p, z))
+            self.edges.add(edge)
         else:
-            self.edges.discard(edge_key(p, z))
+            self.edges.discard(edge)
+        self._note(edge, is_added=is_added)
+
+    def _note(self, edge: Ends, *, is_added: bool) -> None:
+        """Count a change, and keep it until it is reported or another one cancels it."""
+        self.changes += 1
+        there, opposite = self._added, self._removed
+        if not is_added:
+            there, opposite = opposite, there
+        if edge in opposite:
+            opposite.discard(edge)
+        else:
+            there.add(edge)

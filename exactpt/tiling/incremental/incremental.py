@@ -55,7 +55,6 @@ class IncrementalTiling(Tiling):
         fan: whether the fan triangulation is maintained.
 
     Attributes:
-        fan: the fan triangulation, if it is maintained.
         chains: the current representation of chains.
     """
 
@@ -73,7 +72,7 @@ class IncrementalTiling(Tiling):
         self.chains: Chains = Chains(chains, PATIENCE * len(vertices.all))
         none = IncrementalStructure.of([], ([], []))
         self._certified: CertifiedTrees = CertifiedTrees(none, certifier, self.table)
-        self.fan: Fan | None = Fan() if fan else None
+        self.fan = Fan() if fan else None
         self._repairs: TreeRepairs = TreeRepairs(
             self._certified, certifier, self.log, self.chains, self.fan
         )
@@ -105,9 +104,15 @@ class IncrementalTiling(Tiling):
         return self._certified.now
 
     def state(self) -> State:
-        """Return the trees, and the representation of chains."""
-        structure, chains = self.structure, self.chains
-        return {"structure": structure.state(), "chains": [chains.kind, chains.allowed]}
+        """Return the trees, the representation of chains, and the count of the fan's changes."""
+        chains = self.chains
+        state: State = {
+            "structure": self.structure.state(),
+            "chains": [chains.kind, chains.allowed],
+        }
+        if self.fan is not None:
+            state["fan"] = self.fan.changes
+        return state
 
     def resume(self, state: Stored) -> None:
         """See `Tiling.resume`."""
@@ -116,6 +121,8 @@ class IncrementalTiling(Tiling):
         self.chains.allowed = allowed.integer(0)
         count = len(self.vertices.all)
         self._replace(IncrementalStructure.resumed(state["structure"], count))
+        if self.fan is not None:
+            self.fan.changes = state["fan"].integer(0)
 
     def has_part(self, certificate: CertificateId) -> bool:
         """See `Tiling.has_part`."""
@@ -179,6 +186,7 @@ class IncrementalTiling(Tiling):
         for p in map(VertexId, sorted(bodies)):
             self._certified.certify_point(p)
         self._repairs.repair_all()
+        self._record_fan()
         self.stats.most = max(self.stats.most, len(self.queue))
         return self.log.take()
 
@@ -211,9 +219,18 @@ class IncrementalTiling(Tiling):
             else:
                 certified.certify_edge(kind, p)
         self._repairs.repair_all()
+        self._record_fan()
         self.stats.most = max(self.stats.most, len(self.queue))
         if self.chains.kind == "auto":
             self._check_chains()
+
+    def _record_fan(self) -> None:
+        """Record the changes of the fan triangulation at this time as one event, the last one."""
+        if self.fan is None:
+            return
+        changes = self.fan.take_changes()
+        if changes.removed or changes.added:
+            self.log.record_fan(changes.removed, changes.added)
 
     def _check_chains(self) -> None:
         """Make chains searchable if they have turned out to be long."""

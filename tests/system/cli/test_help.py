@@ -23,6 +23,8 @@ FILES = {
     "countries.geojson": '{"type": "Point", "coordinates": [0.1, 2]}',
     "trips.mfjson": '{"type": "MovingPoint", "coordinates": [[0, 0], [1, 0]],'
     ' "datetimes": ["2000-01-01T00:00:00Z", "2000-01-01T00:00:09Z"]}',
+    "points.json": '{"exactpt": 1, "time": [0, 9], "bodies": [{"name": "p", "vertices": [[0, 0]]},'
+    ' {"name": "q", "vertices": [[2, 1]], "motion": {"x": [0, -1]}}]}',
     "parcels.wkt": "POLYGON ((0 0, 1 0, 0 1, 0 0))",
     "drawing.svg": '<svg xmlns="http://www.w3.org/2000/svg"><circle id="c" r="3"/></svg>',
 }

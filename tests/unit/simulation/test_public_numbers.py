@@ -82,6 +82,7 @@ ELSEWHERE = {
     "from_arrays", "launched",  # class methods
     "of_curve",  # of a spline of SciPy
     "history",  # below
+    "fan",  # of a tiling of points alone: positions of vertices
     "draw",  # writes a file
     "locate_many",  # arrays of numpy
     "roots",  # of any polynomial but 0: algebraic numbers
