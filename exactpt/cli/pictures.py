@@ -15,6 +15,7 @@ from exactpt.cli.options import (
     SCENE,
     TILING,
     budget,
+    fan_option,
     keep_input,
     load,
     naming_at,
@@ -64,6 +65,7 @@ from exactpt.kernel.numbers import QQ
 @click.option("--fps", type=click.IntRange(1, 100), help="Its frames in a second.  [default: 20]")
 @QUIET
 @TILING
+@fan_option("Draw the fan triangulation too, its edges dashed")
 @click.option("--no-tiling", is_flag=True, help="Draw the bodies alone.")
 @budget
 def draw(
@@ -79,6 +81,7 @@ def draw(
     fps: int | None,
     quiet: bool,
     tiling: str,
+    fan: bool,
     no_tiling: bool,
     max_events: int | None,
     max_seconds: float | None,
@@ -99,6 +102,7 @@ def draw(
       exactpt draw scene.json -o film.html --clearance ball,wheel
       exactpt draw scene.json -o poses.svg --no-tiling --legend --poses 5
       exactpt draw scene.json -o short.gif --seconds 2 --fps 10
+      exactpt draw points.json -o fan.svg --fan
     """
     from exactpt.render.draw import draw as draw_scene
 
@@ -117,6 +121,7 @@ def draw(
                 output,
                 at=at,
                 tiling=None if no_tiling else tiling,
+                fan=fan,
                 theme=theme,
                 gap=gap,
                 below=below,

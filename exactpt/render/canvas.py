@@ -70,7 +70,7 @@ class Tile:
 @final
 @dataclass(frozen=True, slots=True)
 class Line:
-    """An edge of the tiling, of kind "diagonal" or "hull"."""
+    """An edge of the tiling, of kind "diagonal" or "hull", or of its fan, of kind "fan"."""
 
     start: Pixel
     end: Pixel
@@ -166,6 +166,10 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Canvas:
         colours = {shape.name: shape.colour for shape in shapes}
         tiles, lines = _tiling(still.tiling, window, colours)
         note += f" · {still.tiling.tiling} tiling, {counted(len(tiles), 'pseudo-triangle')}"
+        if still.fan:
+            fan = _fan(still.tiling, window)
+            lines = fan + lines
+            note += f", {counted(len(fan), 'edge')} of the fan"
     caption, news = time_in_words(still.at), ""
     if still.contact is not None:
         caption = f"first contact at {time_in_words(still.contact.time)}"
@@ -245,6 +249,12 @@ def _tiling(
         if e.hull or e.kind == "diagonal"
     )
     return tiles, lines
+
+
+def _fan(tiling: Snapshot, window: Window) -> tuple[Line, ...]:
+    """Return the edges of the fan triangulation that are not in the tiling."""
+    pixels = [window.pixel(node.exact_x, node.exact_y) for node in tiling.nodes]
+    return tuple(Line(pixels[u], pixels[v], "fan") for u, v in tiling.fan)
 
 
 def tints(faces: Sequence[Face]) -> list[int]:

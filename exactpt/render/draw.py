@@ -16,7 +16,7 @@ from exactpt.render.movie import write_movie
 from exactpt.render.page import page_of
 from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
-from exactpt.render.still import still, still_of
+from exactpt.render.still import has_fan, still, still_of
 from exactpt.render.svg import svg_of
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ def draw(
     *,
     at: QQ | Literal["contact"] | None = None,
     tiling: str | None = "auto",
+    fan: bool = False,
     theme: str = "auto",
     gap: tuple[str, str] | None = None,
     below: QQ | None = None,
@@ -72,11 +73,14 @@ def draw(
         raise InputError("below: a distance >= 0, for a plot of the clearance")
     if ending in MOVIES and (at is not None or gap is not None):
         raise InputError(f"{path}: a film has all times, and no plot")
+    if fan and (tiling is None or (gap is not None and ending != ".html")):
+        raise InputError(f"{path}: a fan triangulation is for a picture with a tiling")
     if ending == ".html" or ending in MOVIES:
         with Budget(None, max_seconds).held():  # frames take longer than most runs
             film = film_of(
                 scene,
                 tiling=tiling,
+                fan=fan,
                 max_events=max_events,
                 max_seconds=max_seconds,
                 reached=reached,
@@ -94,7 +98,9 @@ def draw(
         _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap), below), theme=light))
         return
     then = None if at == "contact" else scene.exact_start if at is None else at
-    picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    picture = still(
+        scene, then, tiling=tiling, fan=fan, max_events=max_events, max_seconds=max_seconds
+    )
     frame = frame_of(picture, legend=legend, poses=poses)
     _write_picture(path, svg_of(frame, theme=light))
 
@@ -110,11 +116,12 @@ def draw_run(
     """Draw a simulation into a file, see `Simulation.draw`."""
     ending = _ending(path)
     _check_film(path, seconds, fps)
+    fan = has_fan(simulation)
     if ending == ".html":
-        page = page_of(film_of_run(simulation.history()), title=path.stem, theme=theme)
+        page = page_of(film_of_run(simulation.history(), fan=fan), title=path.stem, theme=theme)
         write_atomically(path, page)
     elif ending in MOVIES:
-        film = film_of_run(simulation.history())
+        film = film_of_run(simulation.history(), fan=fan)
         write_movie(film, path, theme=_paper(theme), seconds=seconds, fps=fps)
     else:
         light = _paper(theme) if ending == ".png" else theme

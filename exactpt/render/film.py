@@ -59,8 +59,8 @@ class Film:
         scene: the scene.
         tiling: the name of the tiling; "no" of rounded bodies, which none holds.
         steps: the times with events; step i is ``steps[i - 1]``, step 0 is the start.
-        edges: the edges of the tiling, each with its first and last step.
-        tiles: the tiles, likewise.
+        edges: the edges of the tiling and of its fan, each with its first and last step.
+        tiles: the tiles, each with its first and last step.
         contact: the first contact, at the last step; None if there is none.
         spans: for each body the time span in which it is there; empty if that is always.
     """
@@ -92,6 +92,7 @@ def film_of(
     scene: Scene,
     *,
     tiling: str | None = "auto",
+    fan: bool = False,
     max_events: int | None = None,
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
@@ -102,20 +103,23 @@ def film_of(
         scene: the bodies, their motions and the time span.
         tiling: the name of the tiling, or "auto", which is none if no tiling can hold the bodies;
             None for bodies without a tiling.
+        fan: whether the edges of the fan triangulation are recorded too.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
         reached: called with the times that the run reaches.
 
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
+        InputError: if a fan is requested, and the bodies or the tiling have none.
     """
-    if tiling is None or (tiling == "auto" and not are_tileable(scene.bodies)):
+    has_tiling = tiling is not None and (tiling != "auto" or are_tileable(scene.bodies))
+    if tiling is None or not (has_tiling or fan):  # a run refuses the bodies of a fan
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
         return film_without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)
     driver = Driver(scene, budget=budget)
     with carrying(lambda: scene), searching(None, driver.contact_free_until), budget.held():
-        plan = plan_tiling(scene, tiling, scene.exact_start)
+        plan = plan_tiling(scene, tiling, scene.exact_start, fan=fan)
         contact = driver.start(plan)
         if contact is not None:
             return film_without_tiling(scene, plan.name, contact)

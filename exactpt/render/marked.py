@@ -28,17 +28,17 @@ _NAMED: Final = 4
 """Maximum number of bodies that an event names."""
 
 
-def film_of_run(history: History) -> Film:
+def film_of_run(history: History, *, fan: bool = False) -> Film:
     """Return the film of a run so far.
 
-    With the same bodies throughout, it is that of `History.scene`, with a tiling; bodies that
-    came or went are shown without one.
+    With the same bodies throughout, it is that of `History.scene`, with a tiling and perhaps its
+    fan; bodies that came or went are shown without one.
 
     Raises:
         InputError: if no time has passed.
     """
     if history.is_scene:
-        return _marked(film_of(history.scene()), history.marks)
+        return _marked(film_of(history.scene(), fan=fan), history.marks)
     lives = history.lives
     scene = scene_of([life.body for life in lives], rational(history.start), rational(history.end))
     spans = tuple((rational(life.since), rational(life.until)) for life in lives)

@@ -38,6 +38,8 @@ COLOURS: Final = 256
 """Colours of a GIF."""
 SAMPLES: Final = 4
 """Number of frames, beside the last one, whose colours it has."""
+_LINES: Final = {"diagonal": "diagonal", "hull": "hull", "rim": "hull", "fan": "fan"}
+"""The kind of line by the kind of `EdgeSpan`."""
 _WHOLE: Final = 16
 """Number of equal parts of the time span at whose ends everything is in view."""
 
@@ -211,7 +213,7 @@ def _frame(film: Film, step: int, t: QQ, window: Window, *, is_end: bool) -> Can
             if film.is_there(i, t)
         ),
         tuple(
-            Line(nodes[edge.u], nodes[edge.v], "diagonal" if edge.kind == "diagonal" else "hull")
+            Line(nodes[edge.u], nodes[edge.v], _LINES[edge.kind])
             for edge in film.edges
             if _holds(edge.first, edge.last, step)
         ),

@@ -10,7 +10,7 @@ from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
 from exactpt.render.marked import film_of_run
 from exactpt.render.page import page_of
-from exactpt.render.still import Still, still_of
+from exactpt.render.still import Still, has_fan, still_of
 from exactpt.render.svg import svg_of
 from exactpt.render.words import clean, incidences_in_words, polynomial_in_words, time_in_words
 
@@ -48,7 +48,8 @@ def simulation_player(simulation: Simulation) -> str | None:
     history = simulation.history()
     if history.start == history.end:
         return None
-    return _framed(page_of(film_of_run(history), title="simulation"))
+    film = film_of_run(history, fan=has_fan(simulation))
+    return _framed(page_of(film, title="simulation"))
 
 
 def _framed(page: str) -> str:

@@ -6,6 +6,7 @@ four. Coordinates are those of `exactpt.render.svg`, and colours those of its st
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
@@ -18,9 +19,13 @@ from exactpt.render.words import clean
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from exactpt.render.canvas import Canvas, Mark, Shape
+    from exactpt.render.canvas import Canvas, Line, Mark, Shape
 
 _ZOOM: Final = 2
+_DASH: Final = 5
+"""Length of a dash, in pixels."""
+_PERIOD: Final = 9
+"""Distance from the beginning of a dash to that of the next one."""
 _FONTS: Final = {
     "bold": ("DejaVuSans-Bold.ttf", "Arial_Bold.ttf", "arialbd.ttf"),
     "plain": ("DejaVuSans.ttf", "Arial.ttf", "arial.ttf"),
@@ -39,7 +44,10 @@ def image_of(frame: Canvas, theme: str) -> Image.Image:
     for shape in frame.shapes:
         pen.shape(shape)
     for line in frame.lines:
-        pen.line((line.start, line.end), colours[line.kind], 1.7 if line.kind == "hull" else 1.1)
+        stroke = 1.7 if line.kind == "hull" else 1.1
+        dashes = pen.dashes(line) if line.kind == "fan" else [(line.start, line.end)]
+        for dash in dashes:
+            pen.line(dash, colours[line.kind], stroke)
     for mark in frame.marks:
         pen.mark(mark)
     image = image.reduce(_ZOOM)
@@ -89,6 +97,19 @@ class _Pen:
         if wide > 3:
             for point in points:
                 self.draw.circle(point, (wide - 1) / 2, fill=colour)
+
+    @staticmethod
+    def dashes(line: Line) -> list[tuple[Pixel, Pixel]]:
+        """Return the dashes of a line, with gaps as in `exactpt.render.svg`."""
+        (x1, y1), (x2, y2) = line.start, line.end
+        length = math.dist(line.start, line.end)
+
+        def at(distance: float) -> Pixel:
+            share = min(distance / length, 1.0)
+            return x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+
+        count = math.ceil(length / _PERIOD)
+        return [(at(k * _PERIOD), at(k * _PERIOD + _DASH)) for k in range(count)]
 
     def shape(self, shape: Shape) -> None:
         """Draw a body: its outline, and its interior or its radius."""

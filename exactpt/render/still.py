@@ -30,12 +30,14 @@ class Still:
         tiling: the tiling at that time (at a contact: the one just before); None if the bodies
             touch at the start, no tiling can hold them, or none is wanted.
         contact: the contact, if this is its time.
+        fan: whether the edges of the tiling's fan are drawn.
     """
 
     scene: Scene
     at: QQ
     tiling: Snapshot | None
     contact: Contact | None
+    fan: bool = False
 
 
 def still(
@@ -43,13 +45,15 @@ def still(
     at: QQ | None,
     *,
     tiling: str | None = "auto",
+    fan: bool = False,
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Still:
     """Return the scene at a rational time, or at its first contact if ``at`` is None.
 
     Raises:
-        InputError: if a contact is requested, but there is none.
+        InputError: if a contact is requested, but there is none; or a fan is, and the bodies or
+            the tiling have none.
         TimeRangeError: if the time is outside the span or after the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
@@ -59,11 +63,12 @@ def still(
             f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
         )
     simulation: Simulation | None = None
-    if tiling is None or (tiling == "auto" and not are_tileable(scene.bodies)):
+    has_tiling = tiling is not None and (tiling != "auto" or are_tileable(scene.bodies))
+    if tiling is None or not (has_tiling or fan):  # a run refuses the bodies of a fan
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
     else:
         simulation = Simulation(
-            scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds
+            scene, tiling=tiling, fan=fan, max_events=max_events, max_seconds=max_seconds
         )
         for _ in simulation.run(at):
             pass
@@ -98,4 +103,10 @@ def still_of(simulation: Simulation) -> Still:
         return Still(scene, at, None, contact)
     # At an event time the tiling may be undefined: draw the one that ends or begins there.
     mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh_after()
-    return Still(scene, at, snapshot(kinetic.vertices, mesh, simulation.name, at), contact)
+    tiling = snapshot(kinetic.vertices, mesh, simulation.name, at)
+    return Still(scene, at, tiling, contact, has_fan(simulation))
+
+
+def has_fan(simulation: Simulation) -> bool:
+    """Return True if a simulation maintains the fan triangulation."""
+    return simulation.kinetic is not None and simulation.kinetic.fan is not None

@@ -29,7 +29,11 @@ def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
     width, height = frame.window.width + column, frame.window.height + HEADER
     size = f'width="{width}" height="{height}"'
     box = f'viewBox="0 0 {width} {height}"'
-    rules = partial(_rules, has_more=bool(frame.scale or frame.ghosts))
+    rules = partial(
+        _rules,
+        has_more=bool(frame.scale or frame.ghosts),
+        has_fan=any(line.kind == "fan" for line in frame.lines),
+    )
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" class="exactpt-{theme}" {box} {size} role="img">',
         f"<title>{_text(frame.caption)}</title>",
@@ -54,7 +58,7 @@ def svg_of(frame: Canvas, *, theme: str = "auto") -> str:
     return "\n".join(parts) + "\n"
 
 
-def _rules(colours: dict[str, str], *, has_more: bool) -> dict[str, str]:
+def _rules(colours: dict[str, str], *, has_more: bool, has_fan: bool) -> dict[str, str]:
     halo = f"paint-order:stroke;stroke:{colours['paper']};stroke-linejoin:round"
     rules = {
         "text": f"font-family:{FONT};fill:{colours['ink']}",
@@ -73,6 +77,8 @@ def _rules(colours: dict[str, str], *, has_more: bool) -> dict[str, str]:
         ".contact .dot": f"fill:{colours['contact']};stroke:none",
         ".contact .touched": "stroke-width:4;stroke-opacity:.55;stroke-linecap:round",
     }
+    if has_fan:
+        rules[".fan"] = f"stroke:{colours['fan']};stroke-width:1.1;stroke-dasharray:5 4"
     if has_more:
         rules |= {
             ".ghosts": "fill-opacity:.18;stroke-opacity:.35",

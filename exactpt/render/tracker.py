@@ -13,7 +13,8 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.collision.driver import CHANGES, Observer
-from exactpt.indices import HalfEdge
+from exactpt.indices import Ends, HalfEdge
+from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
 
@@ -27,8 +28,8 @@ _CHUNK: Final = 64
 class EdgeSpan(NamedTuple):
     """An edge ``u < v`` after step ``first`` until step ``last`` (None: to the end).
 
-    ``kind`` is "diagonal", "hull" (a diagonal on the convex hull) or "rim" (an edge of a
-    body on the convex hull).
+    ``kind`` is "diagonal", "hull" (a diagonal on the convex hull), "rim" (an edge of a
+    body on the convex hull) or "fan" (an edge of the fan triangulation, not of the tiling).
     """
 
     u: int
@@ -79,6 +80,7 @@ class Tracker(Observer):
         self._edges: dict[tuple[int, int], tuple[str, int]] = {}
         self._gone_tiles: list[TileSpan] = []
         self._gone_edges: list[EdgeSpan] = []
+        self._fan: dict[tuple[int, int], int] = {}
         self._known: set[HalfEdge] | None = None
         kinetic.changes()  # those before the first step
         self.update(0)
@@ -90,10 +92,10 @@ class Tracker(Observer):
 
     @property
     def edges(self) -> list[EdgeSpan]:
-        """All edges so far: the diagonals, and the edges of bodies on the convex hull."""
-        return self._gone_edges + [
-            EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()
-        ]
+        """All edges so far: the diagonals, the edges of bodies on the convex hull, the fan."""
+        tiling = [EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()]
+        fan = [EdgeSpan(*key, "fan", since, None) for key, since in self._fan.items()]
+        return self._gone_edges + tiling + fan
 
     def on_changed_edges(self, changed: set[HalfEdge] | None) -> None:
         """See `Observer.on_changed_edges`; the half-edges are for the next update."""
@@ -129,6 +131,8 @@ class Tracker(Observer):
         ordered = sorted(changed)
         self._update_tiles(ordered, step)
         self._update_edges(ordered, step)
+        if self._kinetic.fan is not None:
+            self._update_fan(self._kinetic.fan.edges, step)
 
     def _update_tiles(self, changed: list[int], step: int) -> None:
         mesh = self._kinetic.mesh_after()
@@ -207,6 +211,17 @@ class Tracker(Observer):
                     self._gone_edges.append(EdgeSpan(*key, *before, step))
             if kind is not None and (before is None or before[0] != kind):
                 self._edges[key] = (kind, step)
+
+    def _update_fan(self, triangulation: set[Ends], step: int) -> None:
+        """Record the edges of the fan triangulation that are not in the tiling."""
+        nodes = (edge_key(self._node[u], self._node[v]) for u, v in triangulation)
+        now = {edge for edge in nodes if edge not in self._edges}
+        for edge in sorted(self._fan.keys() - now):
+            since = self._fan.pop(edge)
+            if since < step:
+                self._gone_edges.append(EdgeSpan(*edge, "fan", since, step))
+        for edge in sorted(now - self._fan.keys()):
+            self._fan[edge] = step
 
     def _kind(self, members: Iterable[int]) -> str | None:
         """Return the kind of an edge, given its copies; None on or inside a body."""

@@ -374,6 +374,7 @@ class Scene:
         *,
         at: Rational | Literal["contact"] | None = None,
         tiling: str | None = "auto",
+        fan: bool = False,
         theme: str = "auto",
         gap: tuple[str, str] | None = None,
         below: Rational | None = None,
@@ -391,6 +392,7 @@ class Scene:
             at: the time, rational or "contact"; by default the start. An animation shows that
                 time first, a film has all times.
             tiling: the tiling to show: "auto" or one of `TILINGS`; None for bodies alone.
+            fan: whether the fan triangulation of points is shown too, its edges dashed.
             theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
             gap: names of two bodies, whose distance over time is plotted beside an animation; a
                 picture is of this plot alone.
@@ -402,8 +404,8 @@ class Scene:
             fps: frames of a film in a second (20).
 
         Raises:
-            InputError: if the suffix is unknown, a library is missing, or no contact or
-                body to draw exists.
+            InputError: if the suffix is unknown, a library is missing, no contact or body to draw
+                exists, or the scene or its tiling has no fan.
             TimeRangeError: if there is nothing to draw at that time.
         """
         when = at if at is None or at == "contact" else rational(at)
@@ -412,6 +414,7 @@ class Scene:
             Path(path),
             at=when,
             tiling=tiling,
+            fan=fan,
             theme=theme,
             gap=gap,
             below=None if below is None else rational(below),

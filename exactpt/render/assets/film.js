@@ -72,9 +72,9 @@ class Film {
     return this.bodies.filter((body) => this.isThere(body, time));
   }
 
-  /** Whether an edge of the tiling joins two bodies. */
+  /** Whether an edge of the tiling, not of its fan, joins two bodies. */
   isBridge({ u, v, kind }) {
-    return kind !== "rim" && this.nodes[u].body !== this.nodes[v].body;
+    return kind !== "rim" && kind !== "fan" && this.nodes[u].body !== this.nodes[v].body;
   }
 
   /** Whether the picture is that of the contact. */

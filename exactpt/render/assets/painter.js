@@ -16,8 +16,8 @@ class Painter {
   /** Read the colours of the theme. */
   readTheme() {
     const style = getComputedStyle(document.documentElement);
-    for (const name of ["paper", "ink", "soft", "outline", "diagonal", "hull", "accent", "contact",
-      "added", "removed", "next", "tint0", "tint1", "tint2", "tint3", "tint4", "tint5"]) {
+    for (const name of ["paper", "ink", "soft", "outline", "diagonal", "fan", "hull", "accent",
+      "contact", "added", "removed", "next", "tint0", "tint1", "tint2", "tint3", "tint4", "tint5"]) {
       this.colours[name] = style.getPropertyValue(`--${name}`).trim();
     }
   }
@@ -161,10 +161,12 @@ class Painter {
 
   edges(edges) {
     const { context, colours, pen } = this;
-    for (const [isHull, colour, width] of [[false, colours.diagonal, 1.1], [true, colours.hull, 1.8]]) {
+    for (const [kinds, colour, width, dash] of [
+      [["fan"], colours.fan, 1.1, [5, 4]], [["diagonal"], colours.diagonal, 1.1, []],
+      [["hull", "rim"], colours.hull, 1.8, []]]) {
       context.beginPath();
-      for (const { u, v, kind } of edges) if (kind !== "diagonal" === isHull) pen.segment(u, v);
-      this.stroke(colour, width);
+      for (const { u, v, kind } of edges) if (kinds.includes(kind)) pen.segment(u, v);
+      this.stroke(colour, width, dash);
     }
   }
 

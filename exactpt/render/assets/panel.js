@@ -18,6 +18,7 @@ class Panel {
       const row = event.target.closest(".row");
       if (row) act.goTo(Number(row.dataset.step));
     });
+    byId("legend-fan").hidden = !film.edges.some(({ kind }) => kind === "fan");
     this.writeContact();
   }
 

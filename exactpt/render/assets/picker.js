@@ -62,7 +62,8 @@ function described(film, chart, picked, time, digits) {
   }
   if (picked.edge) {
     const { u, v, kind, from, until } = picked.edge;
-    const what = { diagonal: "diagonal", hull: "diagonal on the hull", rim: "edge on the hull" }[kind];
+    const what = { diagonal: "diagonal", hull: "diagonal on the hull", rim: "edge on the hull",
+      fan: "edge of the fan" }[kind];
     return [`${what} ${film.name(u)} – ${film.name(v)}`, ...lifetime(film, from, until)];
   }
   if (picked.tile) {
