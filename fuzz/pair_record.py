@@ -73,6 +73,11 @@ def pair_record(families: Sequence[str], seeds: int, tiny: int) -> Iterator[str]
         yield _line(f"arrays {k}", {"answers": partial(array_answers, k)})
 
 
+def _as_groups(names: Sequence[str]) -> list[Sequence[str]]:
+    """Return the group of some bodies; none for a single one."""
+    return [names] if len(names) > 1 else []
+
+
 def pair_answers(scene: Scene) -> dict[str, Callable[[], object]]:
     """Return the questions about a scene by name."""
     names = [body.name for body in scene.bodies]
@@ -86,11 +91,11 @@ def pair_answers(scene: Scene) -> dict[str, Callable[[], object]]:
             next(answers([json.dumps(scene.to_json())])),
         ],
         "exact": lambda: first_contact(scene, exact_only=True),
-        "ignoring": lambda: first_contact(scene, ignoring=[names[::2]]),
+        "ignoring": lambda: first_contact(scene, ignoring=_as_groups(names[::2])),
         "between": lambda: first_contact(scene, between=pairs),
         "after": lambda: [
             first_contact(scene, after_start=True),
-            first_contact(scene, after_start=True, ignoring=[names[:2]]),
+            first_contact(scene, after_start=True, ignoring=_as_groups(names[:2])),
         ],
         "within": lambda: [first_within(scene, distance=d) for d in (0, "1/3", 2)],
         "two": lambda: [first_within(scene, *pair, d) for pair in pairs for d in (0, "1/3", 2)],

@@ -8,6 +8,7 @@ from typing import Final, final
 
 from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
+from exactpt.collision.searches import ContactQuery, refuse_conflicts
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
 from exactpt.kernel.budget import bounded
@@ -71,14 +72,11 @@ class Options:
             )
         if self.distance is not None:
             first_within(NOTHING, distance=self.distance)
-        first_contact(  # refuses options that exclude each other
-            NOTHING,
-            method=self.method,
-            tiling=self.tiling,
-            ignoring=[() for _ in self.ignoring],
-            after_start=self.after_start,
-            between=None if self.between is None else (),
+        first_contact(NOTHING, method=self.method, tiling=self.tiling)  # refuses unknown names
+        question = ContactQuery(
+            self.method, self.tiling, after_start=self.after_start, between=self.between
         )
+        refuse_conflicts(question, has_groups=bool(self.ignoring))
 
     def _first_only(self) -> list[object]:
         return [getattr(self, name) for name in FIRST_ONLY]

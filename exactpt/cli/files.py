@@ -166,12 +166,14 @@ def convert(
 
 def _what_touches(scene: Scene) -> list[str]:
     """Return a line about the bodies that touch at the start, if there are any."""
+    from exactpt.pairs.selection import Selection
     from exactpt.pairs.start import initial_touches
 
     try:
-        _, pairs = initial_touches(scene)
+        _, touching = initial_touches(scene)
     except InputError as error:  # too many to be listed
         return [str(error)]
+    pairs = Selection(scene).of(touching)
     if not pairs:
         return []
     names = [name_in_words(body.name) for body in scene.bodies]

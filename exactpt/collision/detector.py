@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -24,7 +24,7 @@ def first_contact(
     method: str = "auto",
     tiling: str = "auto",
     exact_only: bool = False,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
     after_start: bool = False,
     between: Iterable[Sequence[str]] | None = None,
     since: Rational | None = None,
@@ -43,13 +43,14 @@ def first_contact(
         tiling: the tiling to keep, one of `TILINGS` or `POINT_TILING`; "auto" is "incremental"
             if all bodies are points, else "lazy", which has the fewest events.
         exact_only: whether exact arithmetic decides everything, without the float filters.
-        ignoring: groups of body names. Contacts between two bodies of one group are ignored.
-            A tiling cannot hold bodies that overlap, so this needs "pairs" or "auto".
+        ignoring: groups of names and patterns as of a `Scene`, beside those of the scene.
+            Contacts between two bodies of one group are ignored. A tiling watches all bodies, so
+            groups need "pairs" or "auto", which then keeps none.
         after_start: whether to find the first contact that is new: bodies that touch at the
             start count only when they have parted and touch again, or when they begin to
             overlap. This needs "pairs" or "auto", as does ``between``.
         between: pairs of names; contacts of other pairs do not count, nor do those of a body
-            with itself. All if not given.
+            with itself. All if not given. A pair that is ignored is an error.
         since: a later start of the time span. Bodies that touch at it are in contact at it.
         proof: file to write, with all that an independent program needs to check the result
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
@@ -63,15 +64,14 @@ def first_contact(
     Raises:
         BudgetExceeded: if the time or memory is used up, in any thread, also before the search
             begins; its ``reached`` is a time up to which no contact exists, or None.
-        InputError: if the method, tiling or a body does not exist, the scene is none, or the proof
-            or certificate cannot be written.
+        InputError: if the method, tiling or a body does not exist, the scene is none, a group is
+            wrong, a named pair is ignored, or the proof or certificate cannot be written.
     """
     if method not in METHODS:
         raise InputError(f"no method {shorten(method)}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     a_scene(scene)
     with bounded(max_seconds, max_memory), carrying(lambda: scene):
-        groups = ignoring if isinstance(ignoring, str) else list(ignoring)
         given = scene
         if since is not None:
             scene = scene.since(since)
@@ -79,7 +79,7 @@ def first_contact(
             method,
             tiling,
             exact_only=exact_only,
-            ignoring=groups,
+            ignoring=ignoring,
             after_start=after_start,
             between=between,
             proof=None if proof is None else Path(proof),

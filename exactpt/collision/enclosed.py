@@ -38,7 +38,7 @@ Then the upper bound is that of a later one, or there is none.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple, final
 
@@ -103,7 +103,7 @@ def first_contact_enclosed(
     scene: Scene,
     *,
     between: Iterable[Sequence[str]] | None = None,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
 ) -> EnclosedContact | None:
     """Return bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
 
@@ -132,19 +132,19 @@ def first_contact_enclosed(
             `spline` both bounds are the exact time.
         between: pairs of names; contacts of other pairs do not count, nor do those of a body
             with itself. All if not given.
-        ignoring: groups of body names. Contacts between two bodies of one group are ignored.
+        ignoring: groups of names and patterns as of a `Scene`, beside those of the scene.
+            Contacts between two bodies of one group are ignored.
 
     Returns:
         The bounds; None if bodies certainly do not touch.
 
     Raises:
-        InputError: if the scene is not a `Scene`, or a name is unknown.
+        InputError: if the scene is not a `Scene`, a name is unknown, a group is wrong, or a named
+            pair is ignored.
     """
     a_scene(scene)
     with carrying(lambda: scene):
-        groups = ignoring if isinstance(ignoring, str) else list(ignoring)
-        pairs = None if between is None else list(between)
-        return _Search(scene, Selection(scene, pairs, groups)).run()
+        return _Search(scene, Selection(scene, between, ignoring)).run()
 
 
 @final
@@ -193,6 +193,7 @@ class _Search:
 
     def _first(self, bodies: Sequence[Body]) -> Contact | None:
         """Return the first contact that counts of bodies with these names."""
+        # Not `Scene.going_on`: the selection has the groups of the scene, too.
         scene = scene_of(bodies, self._start, self._end)
         return first_contact(scene, **self._selection.among(bodies))
 

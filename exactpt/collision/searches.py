@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -10,6 +10,8 @@ from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.search import pair_search
+from exactpt.pairs.selection import Selection
+from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -32,7 +34,7 @@ class ContactQuery(NamedTuple):
     method: str
     tiling: str
     exact_only: bool = False
-    ignoring: Sequence[Collection[str]] = ()
+    ignoring: Iterable[Iterable[str]] = ()
     after_start: bool = False
     between: Iterable[Sequence[str]] | None = None
     proof: Path | None = None
@@ -53,21 +55,31 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
     Raises:
         InputError: if the method does not support this query.
     """
-    method, tiling, exact_only, groups = question[:4]
     if question.certificate is not None:
         return _certified(scene, question)
-    if question.after_start or question.between is not None:
-        return _selected(scene, question)
-    if groups and method == "kinetic":
-        raise InputError("a tiling watches all bodies: to ignore some, use the method pairs")
+    selection = Selection(scene, question.between, question.ignoring)
+    refuse_conflicts(question, has_groups=bool(selection.groups))
     if question.proof is not None:
         return _proved(scene, question, question.proof)
-    if question.max_events is not None and method == "auto" and not groups:
+    exact_only, seconds = question.exact_only, question.max_seconds
+    if question.after_start or selection.named is not None:
+        from exactpt.pairs.selected import SelectedSearch
+
+        return SelectedSearch(
+            scene,
+            after_start=question.after_start,
+            selection=selection,
+            exact_only=exact_only,
+            max_seconds=seconds,
+        )
+    method, tiling = question.method, question.tiling
+    if selection.groups:
+        method = "pairs"  # a tiling watches all pairs
+    elif question.max_events is not None and method == "auto":
         method = "kinetic" if are_tileable(scene.bodies) else "pairs"
-    seconds = question.max_seconds
-    if searches_pairs(method, tiling, groups):
-        search = pair_search(scene, exact_only=exact_only, ignoring=groups, max_seconds=seconds)
-        if method == "pairs" or groups or not search.lacks_boxes:
+    if searches_pairs(method, tiling):
+        search = pair_search(scene, exact_only=exact_only, selection=selection, max_seconds=seconds)
+        if method == "pairs" or not search.lacks_boxes:
             return search
     from exactpt.collision.tiling_search import TilingSearch
 
@@ -84,46 +96,45 @@ def _certified(scene: Scene, question: ContactQuery) -> Search:
     if question.after_start or question.proof is not None:
         what = "with a proof" if question.proof is not None else "of a new contact after the start"
         raise InputError(f"there is no certificate {what}")
-    if question.between is not None:
-        question = question._replace(between=list(question.between))
+    groups = groups_given(question.ignoring)  # two searches read them
+    between = None if question.between is None else list(question.between)
+    question = question._replace(ignoring=groups, between=between)
     search = search_for(scene, question._replace(certificate=None))
     certified: Search = extension("search that writes a certificate")(search, scene, question)
     return certified
 
 
-def _selected(scene: Scene, question: ContactQuery) -> Search:
-    """Return the search for contacts of some pairs, or for new ones.
+def refuse_conflicts(question: ContactQuery, *, has_groups: bool) -> None:
+    """Refuse a query whose parts exclude each other.
+
+    Args:
+        question: the query, without a certificate.
+        has_groups: whether bodies ignore each other, in the scene or for this query.
 
     Raises:
-        InputError: if a tiling or a proof is requested.
+        InputError: if a tiling or a proof is requested of some pairs or of new contacts, or a proof
+            without a tiling.
     """
-    if question.method == "kinetic" or question.tiling != "auto" or question.proof is not None:
-        what = "a tiling watches" if question.proof is None else "a proof is about"
-        raise InputError(
-            f"{what} all bodies, from the start on: contacts between some, or new ones after "
-            "the start, are found only by pairs"
-        )
-    from exactpt.pairs.selected import SelectedSearch
-
-    return SelectedSearch(
-        scene,
-        after_start=question.after_start,
-        between=question.between,
-        ignoring=question.ignoring,
-        exact_only=question.exact_only,
-        max_seconds=question.max_seconds,
-    )
+    is_proved = question.proof is not None
+    needs_tiling = question.method == "kinetic" or is_proved
+    if question.after_start or question.between is not None:
+        if needs_tiling or question.tiling != "auto":
+            what = "a proof is about" if is_proved else "a tiling watches"
+            raise InputError(
+                f"{what} all bodies, from the start on: contacts between some, or new ones after "
+                "the start, are found only by pairs"
+            )
+    elif is_proved and question.method == "pairs":
+        raise InputError("a proof needs a tiling, and method='pairs' has none")
+    if has_groups and needs_tiling:
+        why, use = "a tiling", "the method pairs"
+        if is_proved:
+            why, use = "a proof needs a tiling, which", "a certificate, which can be checked, too"
+        raise InputError(f"{why} watches all bodies, but some ignore each other: use {use}")
 
 
 def _proved(scene: Scene, question: ContactQuery, path: Path) -> Search:
-    """Return the search by a tiling that writes a proof.
-
-    Raises:
-        InputError: if the result is to be found without a tiling.
-    """
-    if question.method == "pairs" or question.ignoring:
-        what = "groups that ignore each other" if question.ignoring else "method='pairs'"
-        raise InputError(f"a proof needs a tiling, and {what} has none")
+    """Return the search by a tiling that writes a proof."""
     proved: Search = extension("search that writes a proof")(
         scene,
         path,
@@ -135,7 +146,7 @@ def _proved(scene: Scene, question: ContactQuery, path: Path) -> Search:
     return proved
 
 
-def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:
+def searches_pairs(method: str, tiling: str) -> bool:
     """Return True if a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
 
     For a single first contact from a cold start the search over pairs is the faster one, also
@@ -144,4 +155,4 @@ def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) ->
     (`PairsSearch.lacks_boxes`). Only a tiling can continue after the contact and compute queries
     about the free space.
     """
-    return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))
+    return method == "pairs" or (method == "auto" and tiling == "auto")

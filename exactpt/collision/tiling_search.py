@@ -8,6 +8,7 @@ from exactpt.collision.driver import Driver
 from exactpt.kernel.budget import Budget, searching
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.pairs.contact import Contact
+from exactpt.scene.groups import NO_TILING, refuse_groups
 from exactpt.scene.scene import Scene
 from exactpt.tiling.report import report
 from exactpt.tiling.start import tiling_for_contact
@@ -41,6 +42,7 @@ class TilingSearch:
         max_seconds: float | None = None,
     ) -> None:
         refuse_untileable(scene.bodies)
+        refuse_groups(scene, NO_TILING)
         self.name: str = tiling_for_contact(scene, tiling)
         self._scene = scene
         self._exact_only = exact_only

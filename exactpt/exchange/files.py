@@ -275,6 +275,8 @@ def lost_by_writing(
     losses = Losses()
     if kind == "scene":
         return ()
+    if scene.ignoring:
+        losses.count("ignoring", "group", len(scene.ignoring))
     for i, body in enumerate(scene.bodies):
         if kind != "mfjson" and at is None and _moves(body):
             losses.count("motion", "body")

@@ -23,6 +23,7 @@ from exactpt.pairs.rational import Earliest
 from exactpt.pairs.search import first_among_pieces, scene_pieces_if_linear
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
+from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
@@ -68,7 +69,7 @@ def first_within(
     distance: Rational | None = None,
     distance_squared: Rational | None = None,
     between: Iterable[Sequence[str]] | None = None,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
 ) -> Approach | None: ...
 
 
@@ -80,7 +81,7 @@ def first_within(
     *,
     distance_squared: Rational | None = None,
     between: Iterable[Sequence[str]] | None = None,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
 ) -> AlgebraicNumber | Approach | None:
     """Return the first time in the scene's span at which bodies are at most a distance apart.
 
@@ -104,15 +105,16 @@ def first_within(
             a rational number can be given. (Of bodies with radii it must be the square of a
             rational number.)
         between: pairs of names, for a question without names; other pairs do not count.
-        ignoring: groups of body names, for a question without names; two bodies of one group
-            do not count.
+        ignoring: groups of names and patterns as of a `Scene`, beside those of the scene, for a
+            question without names; two bodies of one group do not count.
 
     Returns:
         The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
 
     Raises:
         InputError: if a body does not exist, or the distance is missing or negative, or its
-            square is not that of a rational number although a body has a radius.
+            square is not that of a rational number although a body has a radius; if a group is
+            wrong, or named bodies ignore each other.
     """
     a_scene(scene)
     if (a is None) != (b is None):
@@ -120,12 +122,13 @@ def first_within(
             "two names of bodies are given, or none for all bodies; the distance by its name"
         )
     squared = _square_of(distance, distance_squared)
-    selection = Selection(scene, between, ignoring)
+    more = groups_given(ignoring)
     if a is not None and b is not None:
-        if not selection.is_all:
+        if between is not None or more:
             raise InputError("between and ignoring are not supported for two named bodies")
         first, second = two_bodies(scene, a, b)
         return time_within_of_two(first, second, scene.exact_start, scene.exact_end, squared)
+    selection = Selection(scene, between, more)
     largest_radius = max((body.exact_radius for body in scene.bodies), default=QQ(0))
     square_between_cores(squared, largest_radius)  # refuses a square without a rational root
     found: Near | None = None

@@ -106,7 +106,8 @@ def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Di
         at: a rational time in the time span of the scene.
 
     Raises:
-        InputError: if a body does not exist, or the time is irrational or outside the span.
+        InputError: if a body does not exist, the bodies ignore each other in the scene, or the time
+            is irrational or outside the span.
     """
     first, second = two_bodies(scene, a, b)
     t = _rational_time(scene, at)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import heapq
 import math
 import time as clock
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from fractions import Fraction
 from typing import Final, final
 
@@ -40,8 +40,8 @@ from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.far_spins import bodies_near_others
 from exactpt.pairs.rational import Earliest, LinearContact
-from exactpt.pairs.selection import groups_of
-from exactpt.pairs.start import initial_touches
+from exactpt.pairs.selection import Selection
+from exactpt.pairs.start import initial_touches, near_at_start
 from exactpt.scene.scene import Scene, scene_of
 
 FEW: Final = 64
@@ -60,7 +60,8 @@ class PairsSearch:
         scene: the bodies, their motions and the time span.
         exact_only: whether exact arithmetic decides everything, without the float filters.
         max_seconds: time limit, in seconds; None for no limit.
-        ignoring: groups of body names; contacts within a group are ignored.
+        selection: the pairs that count, none of them by its name; by default all but those that
+            the scene ignores.
         ignoring_self: names of bodies whose contacts with themselves are ignored.
 
     Attributes:
@@ -76,20 +77,20 @@ class PairsSearch:
         *,
         exact_only: bool = False,
         max_seconds: float | None = None,
-        ignoring: Iterable[Collection[str]] = (),
+        selection: Selection | None = None,
         ignoring_self: Collection[str] = (),
     ) -> None:
         self._given = scene
-        group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
+        chosen = Selection(scene) if selection is None else selection
         if not exact_only:
             near = bodies_near_others(scene)
             if len(near) < len(scene.bodies):
-                group = group[near]
+                chosen = chosen.of_bodies(near)
                 scene = scene_of(
                     [scene.bodies[i] for i in near], scene.exact_start, scene.exact_end
                 )
         self._scene = scene
-        self._group = group
+        self._selection = chosen
         self._exact_only = exact_only
         self._deadline = deadline_in(max_seconds)
         self._counters = Counters()
@@ -127,7 +128,7 @@ class PairsSearch:
         has about three certificates for each vertex.
         """
         scene = self._scene
-        if not scene.bodies or not are_tileable(scene.bodies):
+        if not scene.bodies or not are_tileable(scene.bodies) or not self._selection.is_all:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)
@@ -146,12 +147,21 @@ class PairsSearch:
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
-        initial, initial_pairs = initial_touches(scene)
-        initial_pairs = [(i, j) for i, j in initial_pairs if not self._ignores(i, j)]
+        touches, initial_pairs = initial_touches(scene, self._near_at_start())
         if initial_pairs:
-            seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
-            return contact_of(scene, AlgebraicNumber(scene.exact_start), seen, initial_pairs)
+            return contact_of(scene, AlgebraicNumber(scene.exact_start), touches, initial_pairs)
         return self._run() if scene.bodies else None
+
+    def _near_at_start(self) -> list[tuple[int, int]] | None:
+        """Return the pairs that count and may touch at the start; None if every pair counts."""
+        scene, selection = self._scene, self._selection
+        if selection.is_all:
+            return None
+
+        def counts(first: Indices, second: Indices) -> Flags:
+            return ~selection.ignored(first, second)
+
+        return list(near_at_start(scene, [body.exact_radius for body in scene.bodies], counts))
 
     @cached_property
     def _swept(self) -> SweptEdges:
@@ -194,7 +204,7 @@ class PairsSearch:
 
         def apart(i: Indices, j: Indices) -> Flags:
             watched: Flags = (self._has_radius[i] | self._has_radius[j]) & (i != j)
-            watched &= self._group[i] != self._group[j]
+            watched &= ~self._selection.ignored(i, j)
             return watched
 
         return ApproachSearch(scene, squared, radii, apart, self._swept)
@@ -238,13 +248,13 @@ class PairsSearch:
         p, q = boxes[a], boxes[b]
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
-        ignored = (self._group[i] == self._group[j]) & ((i != j) | self._ignores_self[i])
+        ignored = self._selection.ignored(i, j) | ((i == j) & self._ignores_self[i])
         rounded = self._has_radius[i] | self._has_radius[j]
         may: Flags = ~(together | rigid | ignored | lasts | rounded)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:
-        return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
+        return bool(self._ignores_self[i]) if i == j else self._selection.ignores(i, j)
 
     def _search(self, now: QQ, later: QQ, near: Near) -> LinearContact | None:
         """Return the first contact in (now, later] of bodies without radius."""

@@ -9,7 +9,7 @@ any two consecutive ones, decide.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from typing import Final, final
@@ -76,7 +76,7 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
         b: the name of another body.
 
     Raises:
-        InputError: if a body does not exist, or both are the same.
+        InputError: if a body does not exist, both are the same, or they ignore each other.
     """
     two_bodies(scene, a, b)
     bodies = [body for body in scene.bodies if body.name in (a, b)]
@@ -96,7 +96,7 @@ def contacts(
     scene: Scene,
     *,
     between: Iterable[Sequence[str]] | None = None,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
 ) -> list[ContactInterval]:
     """Return the intervals in which two bodies intersect, in the order of their starts, then names.
 
@@ -106,10 +106,12 @@ def contacts(
     Args:
         scene: the bodies and the time span.
         between: pairs of names; contacts of other pairs do not count. All if not given.
-        ignoring: groups of body names; contacts of two bodies of one group do not count.
+        ignoring: groups of names and patterns as of a `Scene`, beside those of the scene;
+            contacts of two bodies of one group do not count.
 
     Raises:
-        InputError: if the scene is not a `Scene`, or a name is unknown.
+        InputError: if the scene is not a `Scene`, a name is unknown, a group is wrong, or a named
+            pair is ignored.
     """
     a_scene(scene)
     selection = Selection(scene, between, ignoring)

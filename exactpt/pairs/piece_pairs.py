@@ -11,6 +11,7 @@ from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
+from exactpt.pairs.selection import refuse_ignored_pair
 from exactpt.scene.scene import Scene, a_scene
 
 
@@ -32,12 +33,14 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     """Return two different bodies of a scene by their names, in the order of these.
 
     Raises:
-        InputError: if the scene is not a `Scene`, a body does not exist, or both are the same.
+        InputError: if the scene is not a `Scene`, a body does not exist, both are the same, or they
+            ignore each other in the scene.
     """
     a_scene(scene)
     first, second = scene.body(a), scene.body(b)
     if first is second:
         raise InputError(f"expected two different bodies, got {shorten(a)} twice")
+    refuse_ignored_pair(scene, a, b)
     return first, second
 
 

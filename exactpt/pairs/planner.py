@@ -17,6 +17,7 @@ from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.obstacles import ActiveInterval, Obstacles
 from exactpt.pairs.pieces import MAX_VERTICES, ScenePieces, pieces_during
 from exactpt.pairs.search import LinearSearch
+from exactpt.pairs.selection import Selection
 from exactpt.scene.scene import Scene
 
 NAME: Final = "shape"
@@ -115,7 +116,8 @@ class Planner:
             obstacles = [scene.bodies[i] for i in interval.obstacles]
             names = [obstacle.name for obstacle in obstacles]
             part = scene.going_on((*obstacles, body), interval.start).until(interval.end)
-            contact = PairsSearch(part, ignoring=[names], ignoring_self=names).run_to_contact()
+            apart = Selection.of_groups(part.bodies, [range(len(obstacles))])
+            contact = PairsSearch(part, selection=apart, ignoring_self=names).run_to_contact()
             if contact is not None:
                 return contact
         return None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, final
 
@@ -39,6 +39,7 @@ from exactpt.pairs.rational import (
     first_incidence,
     span_of,
 )
+from exactpt.pairs.selection import Selection
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class LinearSearch:
     Args:
         scene: the bodies, their motions and the time span.
         pieces: the pieces of the bodies.
-        ignoring: groups of body names; contacts within a group are ignored.
+        selection: the pairs that count; by default all but those that the scene ignores.
         max_seconds: time limit, in seconds; None for no limit.
 
     Attributes:
@@ -66,16 +67,12 @@ class LinearSearch:
         self,
         scene: Scene,
         pieces: ScenePieces,
-        ignoring: Collection[Collection[str]] = (),
+        selection: Selection | None = None,
         max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
         self._pieces = pieces
-        self._group = list(range(len(scene.bodies)))
-        if ignoring or isinstance(ignoring, str):
-            from exactpt.pairs.selection import groups_of
-
-            self._group = groups_of(scene, ignoring)
+        self._selection = Selection(scene) if selection is None else selection
         self._deadline = deadline_in(max_seconds)
         self._search = _Search(contact_distance, self._deadline)
         self._is_apart = False  # whether it is known that no two bodies touch at the start
@@ -128,23 +125,31 @@ class LinearSearch:
         return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _counts(self, i: int, j: int) -> bool:
-        return self._group[i] != self._group[j]
+        return i != j and self._selection.counts(i, j)
 
 
 def pair_search(
     scene: Scene,
     *,
     exact_only: bool = False,
-    ignoring: Collection[Collection[str]] = (),
+    selection: Selection | None = None,
     max_seconds: float | None = None,
 ) -> LinearSearch | PairsSearch:
-    """Return the search over pairs: for linear motion if all bodies are small and linear."""
+    """Return the search over pairs: for linear motion if all bodies are small and linear.
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        selection: the pairs that count, none of them by its name; by default all but those that
+            the scene ignores.
+        max_seconds: time limit, in seconds; None for no limit.
+    """
     pieces = None if exact_only else scene_pieces_if_linear(scene)
     if pieces is not None:
-        return LinearSearch(scene, pieces, ignoring, max_seconds)
+        return LinearSearch(scene, pieces, selection, max_seconds)
     from exactpt.pairs.features_sweep import PairsSearch
 
-    return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
+    return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, selection=selection)
 
 
 def scene_pieces_if_linear(scene: Scene, margin: float = 0.0) -> ScenePieces | None:

@@ -8,7 +8,7 @@ searched alone, up to the best time so far.
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable
 from typing import TypeAlias, final
 
 from exactpt.errors import BudgetExceeded
@@ -40,18 +40,13 @@ class SelectedSearch:
         scene: the bodies, their motions and the time span.
         after_start: whether bodies that touch at the start count only when they have parted
             and touch again, or begin to overlap.
-        between: pairs of names; contacts of other pairs do not count, nor do those of a body
-            with itself. All if not given.
-        ignoring: groups of body names; contacts within a group are ignored.
+        selection: the pairs that count; by default all but those that the scene ignores.
         exact_only: whether exact arithmetic decides everything, without the float filters.
         max_seconds: time limit, in seconds; None for no limit.
 
     Attributes:
         name: the name of the tiling: None.
         pairs: number of pairs of bodies that have been compared.
-
-    Raises:
-        InputError: if a name is unknown, or a pair is not one of two bodies.
     """
 
     name = None
@@ -61,14 +56,13 @@ class SelectedSearch:
         scene: Scene,
         *,
         after_start: bool = False,
-        between: Iterable[Sequence[str]] | None = None,
-        ignoring: Iterable[Collection[str]] = (),
+        selection: Selection | None = None,
         exact_only: bool = False,
         max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
         self._after_start = after_start
-        self._selection = Selection(scene, between, ignoring)
+        self._selection = Selection(scene) if selection is None else selection
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._pieces: dict[int, list[MotionPiece]] | None = None

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
-from typing import TypedDict, final
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Final, TypedDict, final
 
+import numpy as np
+
+from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
+from exactpt.kernel.doubles import Flags, Indices
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
+from exactpt.scene.groups import groups_given, members_of, names_of
 from exactpt.scene.scene import Scene
+
+_NONE: Final[frozenset[int]] = frozenset()
+"""The groups of a body in no group."""
 
 
 class _Names(TypedDict):
@@ -20,57 +28,197 @@ class _Names(TypedDict):
 class Selection:
     """The pairs of bodies of a scene that count.
 
+    Two bodies do not count as a pair if a group of the scene or of the call has both, nor if pairs
+    are named and they are not among these. A body counts with itself, unless pairs are named.
+
+    >>> scene = Scene([Body(name, [(0, 0)]) for name in "abc"], ignoring=[("a", "b")])
+    >>> some = Selection(scene, ignoring=[("b", "c")])
+    >>> some.counts(0, 1), some.counts(0, 2), some.counts(1, 1)
+    (False, True, True)
+
     Args:
-        scene: the bodies.
+        scene: the bodies, and their groups.
         between: pairs of names; other pairs do not count. All if not given.
-        ignoring: groups of body names; pairs within a group do not count.
+        ignoring: more groups of names and patterns, as of a `Scene`.
 
     Attributes:
-        named: the pairs i < j of body numbers that ``between`` names and that count, each once,
-            sorted; None if it is not given.
-        group: the group number of each body; a body in no group has a number of its own.
+        bodies: the bodies of the scene.
+        members: the numbers of the bodies of each group, those of the scene first.
+        groups: for each body that is in a group, the numbers of its groups.
+        named: the pairs i < j of body numbers that ``between`` names, each once, sorted; None if
+            it is not given.
 
     Raises:
-        InputError: if a name is unknown, or a pair is not one of two bodies.
+        InputError: if a name is unknown, a group has fewer than two bodies, or a named pair is not
+            one of two bodies, or one that is ignored.
     """
-
-    __slots__ = ("_between", "_ignoring", "group", "named")
 
     def __init__(
         self,
         scene: Scene,
         between: Iterable[Sequence[str]] | None = None,
-        ignoring: Iterable[Collection[str]] = (),
+        ignoring: Iterable[Iterable[str]] = (),
     ) -> None:
-        self._ignoring = ignoring if isinstance(ignoring, str) else list(ignoring)
-        self._between = None if between is None else list(between)
-        self.group = groups_of(scene, self._ignoring)
+        more = groups_given(ignoring)
+        members: list[list[int]] = []
+        if scene.ignoring or more:
+            names = names_of(scene.bodies)
+            members = [*members_of(scene.ignoring, names), *members_of(more, names)]
+        self.bodies = scene.bodies
+        self.members: Sequence[Sequence[int]] = members
+        self.groups: Mapping[int, frozenset[int]] = _groups_of_bodies(members)
         self.named: list[tuple[int, int]] | None = None
-        if self._between is not None:
-            self.named = self.of(_numbered(scene, self._between))
+        if between is not None:
+            self.named = self._counted(_numbered(scene, between), len(scene.ignoring))
 
     @property
     def is_all(self) -> bool:
         """True if every pair of bodies counts."""
-        return self.named is None and self.group == list(range(len(self.group)))
+        return self.named is None and not self.groups
 
-    def among(self, bodies: Sequence[Body]) -> _Names:
-        """Return the arguments of a selection of the same pairs of some of the bodies."""
-        names = {body.name for body in bodies}
-        between = self._between and [pair for pair in self._between if names.issuperset(pair)]
-        return {"between": between, "ignoring": [names.intersection(g) for g in self._ignoring]}
+    def ignores(self, i: int, j: int) -> bool:
+        """Return True if a group has two different bodies."""
+        groups = self.groups
+        if i == j or not groups:
+            return False
+        return not groups.get(i, _NONE).isdisjoint(groups.get(j, _NONE))
+
+    def counts(self, i: int, j: int) -> bool:
+        """Return True if two bodies, or a body with itself, count as a pair."""
+        if self.named is not None:
+            return (min(i, j), max(i, j)) in self._named_set
+        return not self.ignores(i, j)
 
     def of(self, pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-        """Return those of some pairs i < j that count, in their order."""
-        group, named = self.group, None if self.named is None else set(self.named)
-        return [
-            (i, j) for i, j in pairs if group[i] != group[j] and (named is None or (i, j) in named)
-        ]
+        """Return those of some pairs that count, in their order."""
+        return [(i, j) for i, j in pairs if self.counts(i, j)]
+
+    def ignored(self, first: Indices, second: Indices) -> Flags:
+        """For each pair of an entry of one array and one of the other, see `ignores`."""
+        result = np.zeros(len(first), dtype=np.bool_)
+        if not self.groups:
+            return result
+        offsets, numbers, keys = self._arrays
+        has = np.diff(offsets)
+        last = len(keys) - 1
+        for k in range(int(has.max())):  # the k-th group of each first body: has it the second?
+            (pairs,) = np.nonzero(has[first] > k)
+            group = numbers[offsets[first[pairs]] + k]
+            wanted = second[pairs] * len(self.members) + group
+            place = np.minimum(np.searchsorted(keys, wanted), last)
+            result[pairs] |= keys[place] == wanted
+        result &= first != second
+        return result
+
+    def among(self, bodies: Sequence[Body]) -> _Names:
+        """Return the arguments of a selection of the same pairs of some of the bodies.
+
+        Its groups are of names alone, without patterns, for a scene without groups.
+        """
+        present = set(names_of(bodies))
+        names = names_of(self.bodies)
+        between: list[tuple[str, str]] | None = None
+        if self.named is not None:
+            pairs = ((names[i], names[j]) for i, j in self.named)
+            between = [pair for pair in pairs if present.issuperset(pair)]
+            return {"between": between, "ignoring": []}
+        groups = [present.intersection(names[i] for i in some) for some in self.members]
+        return {"between": None, "ignoring": [group for group in groups if len(group) > 1]}
+
+    def of_bodies(self, numbers: Sequence[int]) -> Selection:
+        """Return the selection of the same pairs of some bodies, which are numbered anew.
+
+        Args:
+            numbers: the numbers of the bodies, increasing.
+        """
+        bodies = [self.bodies[i] for i in numbers]
+        new = {i: k for k, i in enumerate(numbers)}
+        members = [[new[i] for i in some if i in new] for some in self.members]
+        part = Selection.of_groups(bodies, members)
+        if self.named is not None:
+            part.named = [(new[i], new[j]) for i, j in self.named if i in new and j in new]
+        return part
+
+    @classmethod
+    def of_groups(cls, bodies: Sequence[Body], groups: Sequence[Sequence[int]]) -> Selection:
+        """Return the selection with these groups of body numbers; one of one body does nothing."""
+        selection = cls.__new__(cls)
+        selection.bodies, selection.members = bodies, groups
+        selection.groups, selection.named = _groups_of_bodies(groups), None
+        return selection
+
+    def disjoint_groups(self) -> list[list[int]] | None:
+        """Return the groups of bodies if no body is in two different ones; None otherwise."""
+        different = {tuple(some) for some in self.members if len(some) > 1}
+        if sum(map(len, different)) > len({i for some in different for i in some}):
+            return None
+        return sorted(map(list, different))
+
+    @cached_property
+    def _named_set(self) -> frozenset[tuple[int, int]]:
+        return frozenset(self.named or ())
+
+    @cached_property
+    def _arrays(self) -> tuple[Indices, Indices, Indices]:
+        """Offsets of the bodies in the next array; sorted group numbers of each; sorted keys.
+
+        A key is the number of a body, times the number of groups, plus the number of a group.
+        """
+        each = [sorted(self.groups.get(i, _NONE)) for i in range(len(self.bodies))]
+        sizes = [len(groups) for groups in each]
+        offsets = np.cumsum([0, *sizes], dtype=np.int64)
+        numbers = np.array([group for groups in each for group in groups], dtype=np.int64)
+        owners = np.repeat(np.arange(len(each), dtype=np.int64), sizes)
+        return offsets, numbers, owners * len(self.members) + numbers
+
+    def _counted(
+        self, pairs: Sequence[tuple[int, int]], groups_of_scene: int
+    ) -> list[tuple[int, int]]:
+        """Return named pairs, of which none may be ignored.
+
+        Raises:
+            InputError: if one is.
+        """
+        for i, j in pairs:
+            if not self.ignores(i, j):
+                continue
+            shared = min(self.groups[i] & self.groups[j])
+            where = "in this scene" if shared < groups_of_scene else "by ignoring="
+            a, b = (shorten(self.bodies[k].name) for k in (i, j))
+            raise InputError(
+                f"between: bodies {a} and {b} ignore each other {where}; leave this pair out"
+            )
+        return list(pairs)
+
+
+def _groups_of_bodies(members: Sequence[Sequence[int]]) -> dict[int, frozenset[int]]:
+    """Return the numbers of the groups of each body that is in one."""
+    found: dict[int, set[int]] = {}
+    for group, bodies in enumerate(members):
+        for i in bodies:
+            found.setdefault(i, set()).add(group)
+    return {i: frozenset(groups) for i, groups in found.items()}
+
+
+def refuse_ignored_pair(scene: Scene, a: str, b: str) -> None:
+    """Refuse a question about two bodies that ignore each other in the scene.
+
+    Raises:
+        InputError: if a body does not exist, or they do.
+    """
+    if not scene.ignoring:
+        return
+    names = names_of(scene.bodies)
+    if Selection(scene).ignores(names.index(a), names.index(b)):
+        raise InputError(
+            f"bodies {shorten(a)} and {shorten(b)} ignore each other in this scene; "
+            "Scene(scene.bodies, scene.time) has no groups"
+        )
 
 
 def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
     """Return pairs of names as pairs i < j of body numbers, each once, sorted."""
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    number = {name: i for i, name in enumerate(names_of(scene.bodies))}
     pairs: set[tuple[int, int]] = set()
     for names in between:
         if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
@@ -81,27 +229,3 @@ def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int,
         i, j = sorted(number[name] for name in names)
         pairs.add((i, j))
     return sorted(pairs)
-
-
-def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
-    """Return the group number of each body; a body in no group has a number of its own.
-
-    Raises:
-        InputError: if a name is unknown, or it is in two groups, or a group is a text.
-    """
-    if isinstance(ignoring, str):
-        raise InputError(f"ignoring: groups of names, not the text {shorten(ignoring)}")
-    if not (groups := list(ignoring)):
-        return list(range(len(scene.bodies)))
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
-    group = list(range(len(number)))
-    for k, names in enumerate(groups, start=len(group)):
-        if isinstance(names, str):
-            raise InputError(f"ignoring: a group of names, not the text {shorten(names)}")
-        for name in names:
-            if name not in number:
-                raise InputError(f"ignoring: there is no body {shorten(name)}")
-            if group[number[name]] >= len(number):
-                raise InputError(f"body {shorten(name)} is in two groups that ignore each other")
-            group[number[name]] = k
-    return group

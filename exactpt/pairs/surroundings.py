@@ -21,6 +21,8 @@ from exactpt.pairs.clearance import (
     clearance_of_two,
 )
 from exactpt.pairs.distance import Distance, distance
+from exactpt.pairs.selection import Selection
+from exactpt.scene.groups import names_of
 from exactpt.scene.scene import Scene, a_scene
 
 
@@ -52,7 +54,7 @@ class NearestApproach(NamedTuple):
 
 @final
 class Surroundings:
-    """The distance of a body from all others over the time span of a scene.
+    """The distance of a body from all others that count with it, over the time span of a scene.
 
     The functions of time of the single bodies are computed when they are needed: for
     `minimum` and `below`, of those alone whose boxes come near enough.
@@ -63,19 +65,26 @@ class Surroundings:
 
     Attributes:
         name: the name of the body.
-        others: the names of all other bodies, in the order of the scene.
+        others: the names of all other bodies, in the order of the scene; without those that the
+            scene lets this body ignore.
 
     Raises:
-        InputError: if the body does not exist, or is the only one.
+        InputError: if the body does not exist, is the only one, or ignores all others.
     """
 
     def __init__(self, scene: Scene, name: str) -> None:
         scene.body(name)
         self._scene = scene
         self.name = name
-        self.others = tuple(body.name for body in scene.bodies if body.name != name)
-        if not self.others:
+        names = names_of(scene.bodies)
+        if len(names) < 2:
             raise InputError(f"clearance: there is no body but {shorten(name)}")
+        selection, own = Selection(scene), names.index(name)
+        self.others = tuple(
+            other for i, other in enumerate(names) if i != own and selection.counts(own, i)
+        )
+        if not self.others:
+            raise InputError(f"clearance: body {shorten(name)} ignores all others in this scene")
         self._found: dict[str, Clearance] = {}
 
     def __repr__(self) -> str:
@@ -149,11 +158,12 @@ class Surroundings:
         return time_within(first, scene.body(other), scene.exact_start, scene.exact_end, d * d)
 
     def _near(self, reach: QQ) -> list[str]:
-        """Return the names of the other bodies that may come within a distance."""
-        bodies = self._scene.bodies
+        """Return the names of those of the others that may come within a distance."""
+        bodies, others = self._scene.bodies, frozenset(self.others)
         pairs = candidate_pairs(self._scene, reach)
         names = [(bodies[i].name, bodies[j].name) for i, j in pairs]
-        return [b if a == self.name else a for a, b in names if self.name in (a, b)]
+        near = [b if a == self.name else a for a, b in names if self.name in (a, b)]
+        return [name for name in near if name in others]
 
 
 @overload
@@ -189,7 +199,8 @@ def clearance(scene: Scene, a: str, b: str | None = None) -> Clearance | Surroun
         b: the name of another body; if it is not given, all others.
 
     Raises:
-        InputError: if a body does not exist, or both are the same.
+        InputError: if a body does not exist, both are the same, or they ignore each other; or one
+            body ignores all others.
     """
     a_scene(scene)
     return Surroundings(scene, a) if b is None else clearance_of_two(scene, a, b)

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.cached_property import cached_property
@@ -29,6 +30,7 @@ from exactpt.proof.meeting import Meetings
 from exactpt.proof.paths import Paths, short
 from exactpt.proof.written import Proof
 from exactpt.proof_scene import Rejected, written
+from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import scene_bytes, to_json
 
@@ -40,6 +42,8 @@ if TYPE_CHECKING:
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
+MOST_WITH_OVERLAPPING_GROUPS: Final = 200
+"""Maximum number of bodies of which all pairs that count are named."""
 
 
 def certify(
@@ -48,7 +52,7 @@ def certify(
     distance: Rational = 0,
     at: Rational | None = None,
     between: Iterable[Sequence[str]] | None = None,
-    ignoring: Iterable[Collection[str]] = (),
+    ignoring: Iterable[Iterable[str]] = (),
     since: Rational | None = None,
 ) -> Proof:
     """Return the first contact or approach of two bodies, with a certificate (docs/proofs.md).
@@ -68,7 +72,8 @@ def certify(
             certificate that all stay farther apart.
         at: a time, at which alone bodies are shown to be farther apart than the distance.
         between: pairs of names; other pairs do not count.
-        ignoring: groups of body names; two bodies of one group do not count.
+        ignoring: groups of names and patterns as of a `Scene`, beside those of the scene; two
+            bodies of one group do not count.
         since: a later start of the time span.
 
     Returns:
@@ -84,7 +89,7 @@ def certify(
     """
     a_scene(scene)
     _refuse_touching_rings(scene.bodies)
-    groups = ignoring if isinstance(ignoring, str) else list(ignoring)
+    groups = groups_given(ignoring)
     named = None if between is None else list(between)
     d, part = rational(distance), scene
     if d < 0:
@@ -186,20 +191,61 @@ class CertifiedSearch:
         return found
 
 
+def _stated(selection: Selection, count: int) -> tuple[Sequence[int], list[tuple[int, int]] | None]:
+    """Return the pairs that count in the two forms that a certificate can state.
+
+    Args:
+        selection: the pairs that count.
+        count: the number of bodies.
+
+    Returns:
+        a number for each body, such that bodies with equal ones do not count as a pair; and the
+        pairs that count, by name, or None if the numbers say it all. A body has one number in a
+        certificate: where a body is in several groups, all pairs that count are named.
+
+    Raises:
+        InputError: if these pairs are too many.
+    """
+    alone = range(count)
+    if selection.named is not None:
+        return alone, selection.named
+    groups = selection.disjoint_groups()
+    if groups is None:
+        if count > MOST_WITH_OVERLAPPING_GROUPS:
+            raise InputError(
+                f"a certificate names each pair that counts where a body is in several groups that "
+                f"ignore each other: of at most {MOST_WITH_OVERLAPPING_GROUPS} bodies, got {count};"
+                " give between="
+            )
+        return alone, selection.of(combinations(alone, 2))
+    numbers = list(alone)
+    for group in groups:
+        for i in group:
+            numbers[i] = count + group[0]
+    return numbers, None
+
+
 @final
 class _Certificate:
-    """The certificate of a first contact of the pairs of bodies that count."""
+    """The certificate of a first contact of the pairs of bodies that count.
+
+    Args:
+        scene: the bodies and the time span.
+        file: the bytes of the scene's file.
+        selection: the pairs that count.
+        distance: the distance that they keep.
+    """
 
     def __init__(self, scene: Scene, file: bytes, selection: Selection, distance: Fraction) -> None:
         _refuse_touching_rings(scene.bodies)
         refuse_degrees(scene.bodies)
-        if selection.named == []:
-            raise InputError("no pair of bodies counts: there is nothing to certify")
         self.start, self.end = fraction(scene.exact_start), fraction(scene.exact_end)
         self._file, self._distance = file, distance
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
-        self._selection = selection
         self._bodies = scene.bodies
+        self._group, self._named = _stated(selection, len(scene.bodies))
+        if self._named == []:
+            raise InputError("no pair of bodies counts: there is nothing to certify")
 
     @cached_property
     def _paths(self) -> Paths:
@@ -211,10 +257,15 @@ class _Certificate:
 
     def _counts(self, bodies: set[int]) -> bool:
         """See `exactpt.check_apart.Checker.count`."""
-        named = self._selection.named
-        if named is None:
-            return len({self._selection.group[i] for i in bodies}) > 1
-        return any(i in bodies and j in bodies for i, j in named)
+        if self._named is None:
+            return len({self._group[i] for i in bodies}) > 1
+        if len(bodies) ** 2 < len(self._named):
+            return not self._named_set.isdisjoint(combinations(sorted(bodies), 2))
+        return any(i in bodies and j in bodies for i, j in self._named)
+
+    @cached_property
+    def _named_set(self) -> frozenset[tuple[int, int]]:
+        return frozenset(self._named or ())
 
     def text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
         """Return the bytes of the certificate. Raises: as `certify`."""
@@ -235,9 +286,9 @@ class _Certificate:
         if self._distance:
             head.append(f"distance {written(self._distance)}")
         if found is None or start < until:
-            groups, named = self._selection.group, self._selection.named
-            several = groups if named is None else range(len(groups))
-            head += Separation(self._paths, several, self._counts, named).lines(start, until)
+            head += Separation(self._paths, self._group, self._counts, self._named).lines(
+                start, until
+            )
         lines = [*head, *last]
         if not all(is_bounded(line.split()) for line in lines):
             raise BudgetExceeded("no certificate: a number has more than 10,000 digits", None)
@@ -245,11 +296,11 @@ class _Certificate:
 
     def _chosen(self) -> Iterator[str]:
         """Yield the lines that select the pairs that count."""
-        if self._selection.named is not None:  # those that ignore each other are not among them
-            yield from (f"between {i} {j}" for i, j in self._selection.named)
+        if self._named is not None:  # those that ignore each other are not among them
+            yield from (f"between {i} {j}" for i, j in self._named)
             return
         groups: dict[int, list[int]] = {}
-        for i, group in enumerate(self._selection.group):
+        for i, group in enumerate(self._group):
             groups.setdefault(group, []).append(i)
         yield from (
             f"ignoring {' '.join(map(str, some))}" for some in groups.values() if len(some) > 1

@@ -10,8 +10,8 @@ from exactpt.collision.driver import Driver
 from exactpt.errors import carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import Budget, searching
-from exactpt.motion.tileable import are_tileable
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
+from exactpt.scene.groups import is_tileable
 from exactpt.tiling.start import plan_tiling
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def film_of(
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
         InputError: if a fan is requested, and the bodies or the tiling have none.
     """
-    has_tiling = tiling is not None and (tiling != "auto" or are_tileable(scene.bodies))
+    has_tiling = tiling is not None and (tiling != "auto" or is_tileable(scene))
     if tiling is None or not (has_tiling or fan):  # a run refuses the bodies of a fan
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
         return film_without_tiling(scene, "no", contact)

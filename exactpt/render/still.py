@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, final
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
-from exactpt.motion.tileable import are_tileable
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
+from exactpt.scene.groups import is_tileable
 from exactpt.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def still(
             f"from {show(scene.exact_start)} to {show(scene.exact_end)}"
         )
     simulation: Simulation | None = None
-    has_tiling = tiling is not None and (tiling != "auto" or are_tileable(scene.bodies))
+    has_tiling = tiling is not None and (tiling != "auto" or is_tileable(scene))
     if tiling is None or not (has_tiling or fan):  # a run refuses the bodies of a fan
         contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
     else:

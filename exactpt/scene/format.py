@@ -97,7 +97,7 @@ def _check_kind(data: Json) -> None:
 
 def _scene(data: Json) -> Scene:
     _check_kind(data)
-    top = an_object(data, "scene", required=["exactpt", "time", "bodies"])
+    top = an_object(data, "scene", required=["exactpt", "time", "bodies"], optional={"ignoring"})
     if top["exactpt"] != Number(VERSION) or not isinstance(top["exactpt"], Number):
         raise InputError(
             f'"exactpt": this version reads format {VERSION}, not {shown(top["exactpt"])}'
@@ -105,7 +105,21 @@ def _scene(data: Json) -> Scene:
     span = a_list(top["time"], '"time"', length=2)
     time = [exact_number(span[0], '"time"[0]'), exact_number(span[1], '"time"[1]')]
     bodies = [_body(b, i) for i, b in enumerate(a_list(top["bodies"], '"bodies"'))]
-    return Scene(bodies, time)
+    return Scene(bodies, time, ignoring=_groups(top))
+
+
+def _groups(top: dict[str, Json]) -> list[list[str]]:
+    """Return the groups of a scene; `Scene` looks up their names and patterns."""
+    groups = []
+    for k, row in enumerate(a_list(top.get("ignoring", []), '"ignoring"')):
+        where = f'"ignoring"[{k}]'
+        texts = []
+        for text in a_list(row, where):
+            if not isinstance(text, str) or isinstance(text, Number):
+                raise InputError(f"{where}: a name or a pattern is a text, got {shown(text)}")
+            texts.append(str(text))
+        groups.append(texts)
+    return groups
 
 
 def _body(data: Json, index: int) -> Body:

@@ -16,6 +16,7 @@ from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, 
 from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_simple_by_doubles
+from exactpt.scene.groups import Groups, groups_given, kept_groups, members_of, names_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -28,9 +29,24 @@ if TYPE_CHECKING:
 class Scene:
     """Bodies that move during a closed time span.
 
+    >>> from exactpt import Body, first_contact
+    >>> links = [Body(f"link {k}", [(k, 0), (k + 1, 0)]) for k in range(3)]
+    >>> chain = [("link 0", "link 1"), ("link 1", "link 2")]
+    >>> first_contact(Scene(links)).kind, first_contact(Scene(links, ignoring=chain))
+    ('initial', None)
+
+    Args:
+        bodies: the bodies.
+        time: the start and the end of the time span.
+        ignoring: groups of bodies that ignore each other in every question: each group is a list
+            of names and patterns. A text that ends in ``*`` and is not the name of a body is a
+            pattern: it means every body whose name starts with the text before the star. A body
+            may be in several groups; ignoring is not transitive. A body still counts with itself.
+
     Attributes:
         bodies: in the order of the file; names are unique. A tuple, or a sequence that makes
             each body on first access (`from_arrays`).
+        ignoring: the groups, with their texts as they were given.
         lost: data that `exactpt.read_shapes` left out of the file that it read, such as "crs"
             or "z of 40 points", or `from_shapely` of geometries. Empty for other scenes, also for
             those that are made of this one; it has no part in equality.
@@ -38,13 +54,20 @@ class Scene:
     Raises:
         InputError: if a name repeats, the end is not after the start, or a body is not valid at
             the start: a polygon or chain is not simple, holes or parts are where none can be, or
-            rings touch of a body that does not keep its shape.
+            rings touch of a body that does not keep its shape; or if a name or pattern of a group
+            means no body, or a group has fewer than two bodies.
         RoundingError: see `check_rounding`.
     """
 
-    __slots__ = ("bodies", "exact_end", "exact_start", "lost")
+    __slots__ = ("bodies", "exact_end", "exact_start", "ignoring", "lost")
 
-    def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
+    def __init__(
+        self,
+        bodies: Iterable[Body],
+        time: Sequence[Rational] = (0, 1),
+        *,
+        ignoring: Iterable[Iterable[str]] = (),
+    ) -> None:
         check_rounding()
         self.lost: tuple[str, ...] = ()
         self.bodies: Sequence[Body] = tuple(bodies)
@@ -58,6 +81,7 @@ class Scene:
                 raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
             names.add(body.name)
             check_valid(body, self.exact_start, self.exact_end)
+        self.ignoring: Groups = _checked_groups(ignoring, self.bodies)
 
     @classmethod
     def from_arrays(
@@ -71,6 +95,7 @@ class Scene:
         names: Sequence[str] | None = None,
         radii: ArrayLike = 0.0,
         time: Sequence[Rational] = (0, 1),
+        ignoring: Iterable[Iterable[str]] = (),
     ) -> Scene:
         """Return the scene of bodies in numpy arrays, with the exact values of their doubles.
 
@@ -94,9 +119,10 @@ class Scene:
             names: the names of the bodies; "0", "1", ... if not given.
             radii: for each body or for all, its radius.
             time: the start and the end of the scene.
+            ignoring: groups of bodies that ignore each other, see `Scene`.
 
         Raises:
-            InputError: if the arrays do not describe bodies, see `Scene`.
+            InputError: if the arrays do not describe bodies, or the groups are wrong, see `Scene`.
         """
         from exactpt.scene.body_arrays import BodyArrays
 
@@ -107,7 +133,7 @@ class Scene:
         start, end = _span(time)
         for k in bodies.doubtful():
             check_valid(bodies.make(k), start, end)
-        return scene_of(bodies, start, end)
+        return scene_of(bodies, start, end, _checked_groups(ignoring, bodies))
 
     @classmethod
     def load(cls, path: str | Path, *, max_bytes: int | None = None) -> Scene:
@@ -308,7 +334,7 @@ class Scene:
             raise InputError(
                 f"the end t = {show(last)} is not after the start t = {show(self.exact_start)}"
             )
-        return scene_of(self.bodies, self.exact_start, last)
+        return scene_of(self.bodies, self.exact_start, last, self.ignoring)
 
     def since(self, start: Rational) -> Scene:
         """Return the scene from a later start on; an earlier start changes nothing.
@@ -323,11 +349,19 @@ class Scene:
             )
         for body in self.bodies:
             check_valid(body, first, self.exact_end)
-        return scene_of(self.bodies, first, self.exact_end)
+        return scene_of(self.bodies, first, self.exact_end, self.ignoring)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
-        """Return the scene from a later start on, at which its bodies are known to be valid."""
-        return scene_of(tuple(bodies), start, self.exact_end)
+        """Return the scene from a later start on, at which its bodies are known to be valid.
+
+        Args:
+            bodies: the bodies; some may be gone or new. Groups that have lost bodies shrink, and
+                new bodies match patterns.
+            start: the start.
+        """
+        present = tuple(bodies)
+        groups = kept_groups(self.ignoring, self.bodies, present)
+        return scene_of(present, start, self.exact_end, groups)
 
     @property
     def vertex_count(self) -> int:
@@ -353,20 +387,22 @@ class Scene:
         return self.bodies if isinstance(self.bodies, BodyArrays) else None
 
     def __eq__(self, other: object) -> bool:
-        """Return True if the bodies, in order, and the time spans are equal."""
+        """Return True if the bodies, in order, the time spans, and the groups are equal."""
         if not isinstance(other, Scene):
             return NotImplemented
-        return (self.bodies, self.exact_start, self.exact_end) == (
-            other.bodies,
-            other.exact_start,
-            other.exact_end,
-        )
+        mine = (self.bodies, self.exact_start, self.exact_end, self.ignoring)
+        return mine == (other.bodies, other.exact_start, other.exact_end, other.ignoring)
 
     def __hash__(self) -> int:
-        return hash((self.bodies, self.exact_start, self.exact_end))
+        return hash((self.bodies, self.exact_start, self.exact_end, self.ignoring))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _valid_scene, (self.bodies, str(self.exact_start), str(self.exact_end))
+        return _valid_scene, (
+            self.bodies,
+            str(self.exact_start),
+            str(self.exact_end),
+            self.ignoring,
+        )
 
     def draw(
         self,
@@ -436,14 +472,19 @@ class Scene:
     def __repr__(self) -> str:
         bodies = counted(len(self.bodies), "body")
         vertices = counted(self.vertex_count, "vertex")
+        groups = f", {counted(len(self.ignoring), 'ignoring group')}" if self.ignoring else ""
         span = f"[{show(self.exact_start)}, {show(self.exact_end)}]"
-        return f"<Scene: {bodies}, {vertices}, t in {span}>"
+        return f"<Scene: {bodies}, {vertices}{groups}, t in {span}>"
 
 
-def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
-    """Return the scene of bodies that are known to be valid."""
+def scene_of(bodies: Sequence[Body], start: QQ, end: QQ, ignoring: Groups = ()) -> Scene:
+    """Return the scene of bodies, and groups of them, that are known to be valid.
+
+    A search makes scenes of a few bodies that it has chosen: they need no groups.
+    """
     scene = Scene.__new__(Scene)
     scene.bodies, scene.exact_start, scene.exact_end = bodies, start, end
+    scene.ignoring = ignoring
     scene.lost = ()
     return scene
 
@@ -461,9 +502,21 @@ def a_scene(value: object) -> Scene:
     return value
 
 
-def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:
+def _valid_scene(bodies: Sequence[Body], start: str, end: str, ignoring: Groups) -> Scene:
     """Return the scene of a pickle, which was validated before."""
-    return scene_of(bodies, rational(start), rational(end))
+    return scene_of(bodies, rational(start), rational(end), ignoring)
+
+
+def _checked_groups(ignoring: Iterable[Iterable[str]], bodies: Sequence[Body]) -> Groups:
+    """Return the groups of a caller, whose names and patterns mean some of the bodies.
+
+    Raises:
+        InputError: if one of them means none, or a group has fewer than two bodies.
+    """
+    groups = groups_given(ignoring)
+    if groups:
+        members_of(groups, names_of(bodies))
+    return groups
 
 
 def check_valid(body: Body, start: QQ, end: QQ) -> None:

@@ -61,7 +61,13 @@ def to_json(scene: Scene) -> dict[str, object]:
         "exactpt": VERSION,
         "time": [_text(scene.exact_start), _text(scene.exact_end)],
         "bodies": [_named_body_to_json(body) for body in scene.bodies],
+        **_groups_to_json(scene),
     }
+
+
+def _groups_to_json(scene: Scene) -> dict[str, object]:
+    """Return the groups of bodies that ignore each other, under their key; nothing without any."""
+    return {"ignoring": [list(group) for group in scene.ignoring]} if scene.ignoring else {}
 
 
 def _named_body_to_json(body: Body) -> dict[str, object]:

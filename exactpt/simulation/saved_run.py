@@ -7,6 +7,7 @@ from typing import Final
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.stored import Stored
+from exactpt.scene.groups import NO_TILING, refuse_groups
 from exactpt.scene.scene import Scene
 from exactpt.simulation.mutable_scene import Choice, MutableScene
 from exactpt.simulation.reported_contact import ReportedContact
@@ -66,6 +67,7 @@ def run_from_json(data: Stored, scene: Scene, budget: Budget) -> Run:
         InputError: if a value is not what `run_to_json` writes, or contradicts the scene.
     """
     data.with_keys(*KEYS)
+    refuse_groups(scene, NO_TILING)
     counts, state, contact, met = data["counts"], data["state"], data["contact"], data["met"]
     exact_only = data["exact_only"].flag()
     kinetic = None

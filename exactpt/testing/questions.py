@@ -19,6 +19,7 @@ from exactpt.kernel.numbers import rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.format import from_json
+from exactpt.scene.groups import refuse_groups
 from exactpt.scene.scene import Scene
 
 Doubles: TypeAlias = tuple[float, ...]
@@ -118,8 +119,10 @@ class Question:
         """Return the question about the two bodies of a scene.
 
         Raises:
-            InputError: if there are not two, one does not translate, or a number is not a double.
+            InputError: if there are not two, they ignore each other, one does not translate, or a
+                number is not a double.
         """
+        refuse_groups(scene, "a question is about bodies that count; exactpt.testing asks no other")
         if len(scene.bodies) != 2:
             raise InputError(f"a question is about two bodies, not {len(scene.bodies)}")
         a, b = (_moving(body) for body in scene.bodies)

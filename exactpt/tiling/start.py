@@ -18,6 +18,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.scene.groups import NO_TILING, refuse_groups
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry
@@ -100,11 +101,13 @@ def plan_tiling(scene: Scene, name: str, start: QQ, *, fan: bool = False) -> Til
         fan: whether the fan triangulation is maintained too.
 
     Raises:
-        InputError: if the tiling does not exist, is for points and a body is not one, or a body
-            is rounded; or if a fan triangulation is requested, and the tiling has none.
+        InputError: if the tiling does not exist, is for points and a body is not one, a body
+            is rounded, or bodies of the scene ignore each other; or if a fan triangulation is
+            requested, and the tiling has none.
     """
     bodies, end = scene.bodies, scene.exact_end
     refuse_untileable(bodies)
+    refuse_groups(scene, NO_TILING)
     made: list[Vertices] = []
 
     def vertices() -> Vertices:

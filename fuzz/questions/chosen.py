@@ -21,21 +21,32 @@ def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
     scene = crowded_scene(random)
     kind = random.choice(["since", "ignoring", "planner"])
     bodies = list(scene.bodies)
-    group = random.sample(bodies, random.randint(1, len(bodies) - 1))
     start = scene.exact_start
+    groups: list[list[str]] = []
     if kind == "since":
         start += (scene.exact_end - scene.exact_start) * random.randint(0, 7) / 8
-        group, contact = [], first_contact(scene, since=start)
+        contact = first_contact(scene, since=start)
     elif kind == "ignoring":
-        contact = first_contact(scene, ignoring=[[body.name for body in group]])
+        groups = _groups(random, [body.name for body in bodies])
+        of_scene = random.randint(0, len(groups))
+        scene = Scene(bodies, scene.time, ignoring=groups[:of_scene])
+        exact_only = random.random() < 0.3
+        contact = first_contact(scene, ignoring=groups[of_scene:], exact_only=exact_only)
     else:
         shape = bodies.pop(random.randrange(len(bodies)))
-        group = bodies
+        groups = [[body.name for body in bodies]]
         contact = Planner(bodies, (scene.start, scene.end)).first_contact(shape, shape.motion)
-    ignored = {frozenset({a.name, b.name}) for a, b in combinations(group, 2)}
+    ignored = {frozenset(two) for group in groups for two in combinations(group, 2)}
     expected = _first_of_pairs(scene, ignored, start)
     found = _answer(contact)
     return scene, kind, None if found == expected else f"{kind}: {found}, not {expected}"
+
+
+def _groups(random: Random, names: list[str]) -> list[list[str]]:
+    """Return groups of bodies that ignore each other, which may overlap."""
+    return [
+        random.sample(names, random.randint(2, len(names))) for _ in range(random.randint(1, 3))
+    ]
 
 
 def _first_of_pairs(scene: Scene, ignored: set[frozenset[str]], start: QQ) -> Found:

@@ -219,7 +219,8 @@ def _between(side: Side, case: Case) -> Answer:
 
 def _ignoring(side: Side, case: Case) -> Answer:
     group = [name for common in case.groups for name in side.members(common)]
-    return _contact(side, exactpt.first_contact(side.scene, ignoring=[group]))
+    groups = [group] if len({*group}) > 1 else []  # two bodies may be one on the other side
+    return _contact(side, exactpt.first_contact(side.scene, ignoring=groups))
 
 
 def _since(side: Side, case: Case) -> Answer:

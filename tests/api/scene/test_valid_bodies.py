@@ -238,9 +238,10 @@ def test_first_contact_is_that_of_the_hole_whose_side_is_met_first():
     for options in (
         {"method": "pairs"}, {"method": "auto"}, {"exact_only": True},
         {"between": [("point", "notched")]}, {"after_start": True}, {"since": "1/2"},
-        {"ignoring": [["other"]]},
+        {"ignoring": [["other", "another"]]},
     ):  # fmt: skip
-        others = Scene([*scene.bodies, Body("other", [(90, 90)])], scene.time)
+        far = [Body("other", [(90, 90)]), Body("another", [(80, 90)])]
+        others = Scene([*scene.bodies, *far], scene.time)
         assert first_contact(others, **options).time == 2
 
 

@@ -185,7 +185,9 @@ def test_between_asks_about_some_pairs_alone():
     assert first_contact(scene, between=[]) is None
     assert first_contact(scene, between=[("b", "c"), ("a", "d")]).initial_pairs == (("b", "c"),)
     assert first_contact(scene, between=[("b", "c")], after_start=True) is None
-    assert first_contact(scene, between=[("a", "d"), ("a", "c")], ignoring=[("a", "c")]).time == 7
+    assert first_contact(scene, between=[("a", "d")], ignoring=[("a", "c")]).time == 7
+    with pytest.raises(InputError, match=r"^between: bodies 'a' and 'c' ignore each other"):
+        first_contact(scene, between=[("a", "d"), ("c", "a")], ignoring=[("a", "c")])
 
 
 def test_since_a_later_time():

@@ -73,7 +73,6 @@ def test_an_edge_that_shrinks_to_a_point_is_a_contact(speed, closed):
 def test_auto_is_pairs_unless_a_tiling_is_named():
     assert searches_pairs("auto", "auto")
     assert not searches_pairs("auto", "mixed")
-    assert searches_pairs("auto", "mixed", [["a", "b"]])  # no tiling can ignore
     assert searches_pairs("pairs", "mixed")
     assert not searches_pairs("kinetic", "auto")
 

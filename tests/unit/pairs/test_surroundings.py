@@ -165,9 +165,13 @@ def test_contacts_of_some_pairs(seed):
         i for i in every if {i.a, i.b} in [set(pair) for pair in between]
     ]
     assert contacts(scene, ignoring=[group]) == [i for i in every if {i.a, i.b} != set(group)]
-    assert contacts(scene, between=between, ignoring=[group]) == [
+    assert contacts(scene, between=between[1:], ignoring=[group]) == [
         i for i in every if {i.a, i.b} == {names[0], names[2]}
     ]
+    with pytest.raises(InputError, match=r"ignore each other by ignoring=; leave this pair out$"):
+        InputError, match="^between: bodies .* ignore each other by ignoring=; leave"
+    ):
+        contacts(scene, between=between, ignoring=[group])
 
 
 @pytest.mark.parametrize("seed", range(24))

@@ -168,7 +168,8 @@ def test_exit_codes(scene, tmp_path):
 
 def test_what_no_tiling_takes_is_refused(scene, tmp_path):
     path = tmp_path / "answer.proof"
-    for options in ({"method": "pairs"}, {"method": "auto", "ignoring": [["s0", "s1"]]}):
+    group = [body.name for body in scene.bodies[:2]]
+    for options in ({"method": "pairs"}, {"method": "auto", "ignoring": [group]}):
         with pytest.raises(InputError, match="a proof needs a tiling"):
             exactpt.first_contact(scene, proof=path, **options)
     assert not list(tmp_path.iterdir())
