@@ -112,7 +112,8 @@ IGNORE = click.option(
     "--ignore",
     multiple=True,
     metavar="NAME,NAME...",
-    help="Bodies whose contacts with each other are ignored; for --method pairs or auto. "
+    help="Bodies whose contacts with each other are ignored (repeatable), beside the groups of the "
+    "scene; a name that ends in * means all whose name starts so. For --method pairs or auto. "
     'A name with a comma stands in double quotes: "a,b",c.',
 )
 AFTER_START = click.option(

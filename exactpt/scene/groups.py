@@ -91,7 +91,7 @@ def members_of(groups: Groups, names: Sequence[str]) -> list[list[int]]:
     return found
 
 
-def kept_groups(groups: Groups, before: Sequence[Body], after: Sequence[Body]) -> Groups:
+def kept_groups(groups: Groups, before: Iterable[str], after: Iterable[str]) -> Groups:
     """Return the groups of a scene for other bodies, of which some may be gone or new.
 
     Without an error, names and patterns that have lost their bodies are dropped, and groups of
@@ -99,12 +99,10 @@ def kept_groups(groups: Groups, before: Sequence[Body], after: Sequence[Body]) -
 
     Args:
         groups: the groups of the bodies before.
-        before: the bodies for which the groups were made.
-        after: the other bodies.
+        before: the names of the bodies for which the groups were made.
+        after: the names of the other bodies.
     """
-    if not groups or after is before:
-        return groups
-    known, number = set(names_of(before)), {name: i for i, name in enumerate(names_of(after))}
+    known, number = set(before), {name: i for i, name in enumerate(after)}
     kept = []
     for group in groups:
         meant_by = {

@@ -360,7 +360,9 @@ class Scene:
             start: the start.
         """
         present = tuple(bodies)
-        groups = kept_groups(self.ignoring, self.bodies, present)
+        groups = self.ignoring
+        if groups and present is not self.bodies:
+            groups = kept_groups(groups, names_of(self.bodies), names_of(present))
         return scene_of(present, start, self.exact_end, groups)
 
     @property

@@ -12,13 +12,14 @@ from __future__ import annotations
 import copy
 import json
 import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import fraction, parse_rational, rational
 from exactpt.scene.format import from_json
+from exactpt.scene.groups import kept_groups, members_of
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.testing.questions import Question
@@ -159,8 +160,30 @@ def _at(data: Data, path: Path) -> Data:
 
 
 def _fewer_bodies(data: Data) -> Iterator[Data]:
+    names = [body["name"] for body in data["bodies"]]
     for bodies in _without(data["bodies"]):
-        yield _changed(data, ("bodies",), bodies)
+        fewer = _changed(data, ("bodies",), bodies)
+        groups = tuple(map(tuple, data.get("ignoring", ())))
+        kept = kept_groups(groups, names, [body["name"] for body in bodies])
+        yield _with_groups(fewer, kept)
+
+
+def _fewer_groups(data: Data) -> Iterator[Data]:
+    for groups in _without(data.get("ignoring", ())):
+        yield _with_groups(data, groups)
+    for k, group in enumerate(data.get("ignoring", ())):
+        for texts in _without(group):
+            yield _changed(data, ("ignoring", k), texts)
+
+
+def _with_groups(data: Data, groups: Iterable[Iterable[str]]) -> Data:
+    """Return a copy with other groups of bodies that ignore each other, without a key for none."""
+    result = copy.deepcopy(data)
+    result.pop("ignoring", None)
+    listed = [list(group) for group in groups]
+    if listed:
+        result["ignoring"] = listed
+    return result
 
 
 def _shorter_span(data: Data) -> Iterator[Data]:
@@ -241,7 +264,8 @@ def _parts(motion: Data) -> Iterator[Data]:
 def _lower_degrees(data: Data) -> Iterator[Data]:
     for path in _paths(data):
         value = _at(data, path)
-        if isinstance(value, list) and len(value) > 1 and isinstance(value[0], str):
+        is_polynomial = isinstance(value, list) and len(value) > 1 and isinstance(value[0], str)
+        if is_polynomial and path[0] != "ignoring":
             yield _changed(data, path, value[:-1])
         if isinstance(value, dict) and set(value) == {"x", "y"} and isinstance(path[-1], int):
             yield _changed(data, path, [value["x"][0], value["y"][0]])
@@ -287,15 +311,19 @@ def _no_properties(data: Data) -> Iterator[Data]:
 
 
 def _simpler_names(data: Data) -> Iterator[Data]:
-    result = copy.deepcopy(data)
-    for i, body in enumerate(result["bodies"]):
-        body["name"] = chr(ord("a") + i) if i < 26 else f"b{i}"
+    old = [body["name"] for body in data["bodies"]]
+    new = [chr(ord("a") + i) if i < 26 else f"b{i}" for i in range(len(old))]
+    members = members_of(tuple(map(tuple, data.get("ignoring", ()))), old)
+    result = _with_groups(data, [[new[i] for i in group] for group in members])
+    for body, name in zip(result["bodies"], new, strict=True):
+        body["name"] = name
     yield result
 
 
 _STEPS: Final = (
     _no_properties,
     _fewer_bodies,
+    _fewer_groups,
     _shorter_span,
     _fewer_rings,
     _fewer_vertices,
@@ -308,10 +336,10 @@ _STEPS: Final = (
 
 
 def _numbers(data: Data) -> Iterator[Path]:
-    """Yield the paths of all numbers: of all texts except names and properties."""
+    """Yield the paths of all numbers: of all texts except names, properties and groups."""
     for path in _paths(data):
         is_text = isinstance(_at(data, path), str)
-        if is_text and path[-1] != "name" and "properties" not in path:
+        if is_text and path[-1] != "name" and "properties" not in path and path[0] != "ignoring":
             yield path
 
 
