@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import exactpt
+import exactpt.testing
 from exactpt import Body, InputError, Scene, Translation, first_contact
 from exactpt.cli import cli
 from exactpt.simulation.store import sealed
