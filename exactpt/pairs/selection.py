@@ -99,13 +99,15 @@ class Selection:
         if not self.groups:
             return result
         offsets, numbers, keys = self._arrays
-        has = np.diff(offsets)
-        last = len(keys) - 1
-        for k in range(int(has.max())):  # the k-th group of each first body: has it the second?
-            (pairs,) = np.nonzero(has[first] > k)
-            group = numbers[offsets[first[pairs]] + k]
-            wanted = second[pairs] * len(self.members) + group
-            place = np.minimum(np.searchsorted(keys, wanted), last)
+        size = np.diff(offsets)
+        is_less = size[first] <= size[second]
+        one, other = np.where(is_less, (first, second), (second, first))
+        most = int(size[one].max(initial=0))
+        for k in range(most):  # the k-th group of the body in fewer groups: is the other in it?
+            (pairs,) = np.nonzero(size[one] > k)
+            group = numbers[offsets[one[pairs]] + k]
+            wanted = other[pairs] * len(self.members) + group
+            place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
             result[pairs] |= keys[place] == wanted
         result &= first != second
         return result
