@@ -45,7 +45,7 @@ def first_contact(
         exact_only: whether exact arithmetic decides everything, without the float filters.
         ignoring: groups of names and patterns as of a `Scene`, beside those of the scene.
             Contacts between two bodies of one group are ignored. A tiling watches all bodies, so
-            groups need "pairs" or "auto", which then keeps none.
+            groups need "pairs", or "auto" without a tiling.
         after_start: whether to find the first contact that is new: bodies that touch at the
             start count only when they have parted and touch again, or when they begin to
             overlap. This needs "pairs" or "auto", as does ``between``.

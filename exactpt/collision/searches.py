@@ -116,7 +116,8 @@ def refuse_conflicts(question: ContactQuery, *, has_groups: bool) -> None:
             without a tiling.
     """
     is_proved = question.proof is not None
-    needs_tiling = question.method == "kinetic" or is_proved
+    names_tiling = question.method == "auto" and question.tiling != "auto"
+    needs_tiling = question.method == "kinetic" or names_tiling or is_proved
     if question.after_start or question.between is not None:
         if needs_tiling or question.tiling != "auto":
             what = "a proof is about" if is_proved else "a tiling watches"
@@ -127,7 +128,7 @@ def refuse_conflicts(question: ContactQuery, *, has_groups: bool) -> None:
     elif is_proved and question.method == "pairs":
         raise InputError("a proof needs a tiling, and method='pairs' has none")
     if has_groups and needs_tiling:
-        why, use = "a tiling", "the method pairs"
+        why, use = "a tiling", "the method pairs, or auto without a tiling"
         if is_proved:
             why, use = "a proof needs a tiling, which", "a certificate, which can be checked, too"
         raise InputError(f"{why} watches all bodies, but some ignore each other: use {use}")

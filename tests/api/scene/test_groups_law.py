@@ -179,7 +179,6 @@ QUESTIONS = {
     "first_contact": lambda s, _: of_contact(exactpt.first_contact(s)),
     "first_contact exact_only": lambda s, _: of_contact(exactpt.first_contact(s, exact_only=True)),
     "first_contact pairs": lambda s, _: of_contact(exactpt.first_contact(s, method="pairs")),
-    "first_contact tiling": lambda s, _: of_contact(exactpt.first_contact(s, tiling="greedy")),
     "first_contact after_start": lambda s, _: of_contact(
         exactpt.first_contact(s, after_start=True)
     ),
@@ -234,6 +233,7 @@ QUESTIONS = {
 
 REFUSING = {
     "first_contact kinetic": lambda s, _: exactpt.first_contact(s, method="kinetic"),
+    "first_contact tiling": lambda s, _: exactpt.first_contact(s, tiling="greedy"),
     "first_contact proof": lambda s, folder: exactpt.first_contact(s, proof=folder / "a.proof"),
     "prove": lambda s, _: exactpt.prove(s),
     "Simulation": lambda s, _: exactpt.Simulation(s),
@@ -251,6 +251,7 @@ REFUSING = {
     "write_shapes .mfjson": lambda s, folder: exactpt.write_shapes(
         s, folder / "shapes.mfjson", strict=True
     ),
+    "collide --tiling": lambda s, folder: refused(folder, s, "collide", "--tiling", "greedy"),
     "simulate": lambda s, folder: refused(folder, s, "simulate"),
     "tile": lambda s, folder: refused(folder, s, "tile"),
     "check": lambda s, folder: refused(folder, s, "check"),
