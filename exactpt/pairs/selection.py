@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Final, TypedDict, final
-
-import numpy as np
+from typing import TYPE_CHECKING, Final, TypedDict, final
 
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
@@ -14,6 +12,9 @@ from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
 from exactpt.scene.groups import groups_given, members_of, names_of
 from exactpt.scene.scene import Scene
+
+if TYPE_CHECKING:
+    pass
 
 _NONE: Final[frozenset[int]] = frozenset()
 """The groups of a body in no group."""
@@ -95,6 +96,8 @@ class Selection:
 
     def ignored(self, first: Indices, second: Indices) -> Flags:
         """For each pair of an entry of one array and one of the other, see `ignores`."""
+        import numpy as np
+
         result = np.zeros(len(first), dtype=np.bool_)
         if not self.groups:
             return result
@@ -166,6 +169,8 @@ class Selection:
 
         A key is the number of a body, times the number of groups, plus the number of a group.
         """
+        import numpy as np
+
         each = [sorted(self.groups.get(i, _NONE)) for i in range(len(self.bodies))]
         sizes = [len(groups) for groups in each]
         offsets = np.cumsum([0, *sizes], dtype=np.int64)

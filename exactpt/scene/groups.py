@@ -55,10 +55,11 @@ def _group_given(group: Iterable[str], where: str) -> tuple[str, ...]:
 
 def names_of(bodies: Sequence[Body]) -> list[str]:
     """Return the names of bodies; those in arrays are not made for it."""
-    from exactpt.scene.body_arrays import BodyArrays
+    if not isinstance(bodies, (tuple, list)):
+        from exactpt.scene.body_arrays import BodyArrays
 
-    if isinstance(bodies, BodyArrays):
-        return [bodies.name(k) for k in range(len(bodies))]
+        if isinstance(bodies, BodyArrays):
+            return [bodies.name(k) for k in range(len(bodies))]
     return [body.name for body in bodies]
 
 
