@@ -15,7 +15,7 @@ The maxima are bounded by Bernstein coefficients, those of E by the coefficients
 parts; e(0) is enclosed in rational bounds, at the unit vector u turned by h(0). How a half turn was
 found does not matter, and no error of one piece is carried to the next.
 
-The body is turned about the origin, then translated: a point at a distance r from the origin,
+The body is turned about its pivot, then translated: a point at a distance r from the pivot,
 turned by angles that differ by e, gets to places 2 r sin(|e| / 2) <= r |e| apart.
 """
 

@@ -25,12 +25,14 @@ from typing import final
 
 from exactpt.brief import counted
 from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
     fraction,
     fractions,
     nearest_float,
+    place,
     rational,
     rationals,
     shorten,
@@ -50,15 +52,19 @@ from exactpt.motion.shape import listed
 class PosePath(Pieces):
     """A rigid motion along a path of poses (x, y, angle), polynomials of the time in each piece.
 
-    At the time t the body is turned by the angle theta(t), in radians, about the origin of its rest
-    frame, then translated by (x(t), y(t)). The pieces turn by an angle that differs from it by at
-    most ``error`` at every time, and their translation by at most ``place_error``: a point at a
-    distance r from the origin is at most r ``error`` + ``place_error`` from where it should be.
-    Before the first time and after the last the body rests.
+    At the time t the body is turned by the angle theta(t), in radians, about the pivot, a point of
+    its rest frame, then translated by (x(t), y(t)), as by `Rigid`. The pieces turn by an angle that
+    differs from it by at most ``error`` at every time, and their translation by at most
+    ``place_error``: a point at a distance r from the pivot is at most r ``error`` + ``place_error``
+    from where it should be. So a pivot amid the body keeps this small; where a body is given in
+    the frame of a whole drawing, far from the origin, one is needed. Before the first time and
+    after the last the body rests.
 
     >>> path = PosePath([0, 2], [([0, 1], 0, [0, 0, "1/4"])], error="1/1000")
     >>> path.pose(2)
     (Fraction(2, 1), Fraction(0, 1), Fraction(1, 1))
+    >>> PosePath([0, 2], [([0, 1], 0, [0, 1])], pivot=(100, 40)).pivot
+    (Fraction(100, 1), Fraction(40, 1))
 
     Args:
         times: m + 1 increasing times.
@@ -67,6 +73,8 @@ class PosePath(Pieces):
         place_error: the largest error of the translation. If it is 0, x and y are taken as they
             are, of a degree of at most 3; else they are fitted by cubics. The part that the fit
             does not need counts as a stated error (`assumed_place_error`).
+        pivot: the point of the rest frame about which the body turns; the path leads it through
+            pivot + (x(t), y(t)).
 
     Raises:
         InputError: if an argument is invalid, the path jumps, or more than 100,000 pieces are
@@ -74,12 +82,13 @@ class PosePath(Pieces):
     """
 
     __slots__ = (
+        "_pivot",
         "exact_assumed_angle_error",
         "exact_error",
         "exact_place_error",
         "exact_poses",
-        "exact_times",
-    )
+        "exact_times"
+    )  # fmt: skip
 
     def __init__(
         self,
@@ -88,8 +97,9 @@ class PosePath(Pieces):
         *,
         error: Rational = "1/1000000",
         place_error: Rational = 0,
+        pivot: Sequence[Rational] = (0, 0),
     ) -> None:
-        self._hold(times, poses, error, place_error)
+        self._hold(times, poses, error, place_error, pivot)
         self._fit(self.exact_place_error)
 
     @classmethod
@@ -102,6 +112,7 @@ class PosePath(Pieces):
         assumed_angle_error: QQ,
         fit_place_error: Rational = 0,
         assumed_place_error: Rational = 0,
+        pivot: Sequence[Rational],
     ) -> PosePath:
         """Return a path whose poses differ from the true motion.
 
@@ -112,11 +123,13 @@ class PosePath(Pieces):
             assumed_angle_error: the part of the error by which the poses may differ.
             fit_place_error: the largest error of the translation of the pieces.
             assumed_place_error: that of the poses, which is added to it.
+            pivot: see `PosePath`.
         """
         self = cls.__new__(cls)
         fit = rational(fit_place_error)
         _check_place_error(fit)
-        self._hold(times, poses, error, fit + rational(assumed_place_error), assumed_angle_error)
+        place_error = fit + rational(assumed_place_error)
+        self._hold(times, poses, error, place_error, pivot, assumed_angle_error)
         self._fit(fit)
         return self
 
@@ -130,7 +143,8 @@ class PosePath(Pieces):
                             f"piece {i}: {name} has degree {f.degree}: give a place_error"
                         )
         angle_error = self.exact_error - self.exact_assumed_angle_error
-        Pieces.__init__(self, pieces_along(self._spans(), angle_error, place_error))
+        pieces = pieces_along(self._spans(), angle_error, place_error, self._pivot)
+        Pieces.__init__(self, pieces)
 
     def _hold(
         self,
@@ -138,6 +152,7 @@ class PosePath(Pieces):
         poses: Sequence[Sequence[Coefficients]],
         error: Rational,
         place_error: Rational,
+        pivot: Sequence[Rational],
         assumed_angle_error: Rational = 0,
     ) -> None:
         """Check and keep the path and its errors."""
@@ -145,6 +160,8 @@ class PosePath(Pieces):
         self.exact_poses = tuple(_pose(i, row) for i, row in enumerate(listed("poses", poses)))
         self.exact_error, self.exact_place_error = rational(error), rational(place_error)
         self.exact_assumed_angle_error = rational(assumed_angle_error)
+        px, py = rationals(pivot, 2, "a pivot has two coordinates")
+        self._pivot: Point = (px, py)
         if len(self.exact_times) != len(self.exact_poses) + 1 or not self.exact_poses:
             raise InputError(
                 f"a path has at least one pose, and one pose fewer than times: "
@@ -176,6 +193,7 @@ class PosePath(Pieces):
         *,
         error: Rational = "1/1000000",
         place_error: Rational | None = None,
+        pivot: Sequence[Rational] = (0, 0),
     ) -> PosePath:
         """Return the path along a piecewise polynomial of SciPy with three columns x, y, angle.
 
@@ -201,6 +219,7 @@ class PosePath(Pieces):
             curve: ``PPoly``, ``CubicSpline`` or an object with the attributes ``c`` and ``x``.
             error: see `PosePath`.
             place_error: see `PosePath`; if not given, 0 for degrees up to 3, else 10^-6.
+            pivot: see `PosePath`.
 
         Raises:
             InputError: if it has not three columns, a coefficient is not finite, it repeats itself
@@ -226,6 +245,7 @@ class PosePath(Pieces):
             assumed_angle_error=angle_offset,
             fit_place_error=place_error,
             assumed_place_error=closed.place_offset,
+            pivot=pivot,
         )
 
     @classmethod
@@ -237,6 +257,7 @@ class PosePath(Pieces):
         ramp: Rational = 0,
         unwrap: bool = False,
         error: Rational = "1/1000000",
+        pivot: Sequence[Rational] = (0, 0),
     ) -> PosePath:
         """Return the path through samples, at constant rates or from rest to rest.
 
@@ -262,6 +283,7 @@ class PosePath(Pieces):
                 body turns to it by at most pi. Of ``error``, at most a thousandth is needed for
                 2 pi as a rational number.
             error: see `PosePath`.
+            pivot: see `PosePath`.
 
         Raises:
             InputError: if an argument is invalid, or two successive angles differ by more than pi
@@ -284,7 +306,9 @@ class PosePath(Pieces):
                 moves = [q - p for p, q in zip(first, last, strict=True)]
                 poses.append([profile * m + p for m, p in zip(moves, first, strict=True)])
                 all_times.append(begin + until)
-        return cls._of_inexact(all_times, poses, error=whole, assumed_angle_error=rounding)
+        return cls._of_inexact(
+            all_times, poses, error=whole, assumed_angle_error=rounding, pivot=pivot
+        )
 
     @classmethod
     def of_pieces(
@@ -295,24 +319,27 @@ class PosePath(Pieces):
         error: Rational,
         place_error: Rational = 0,
         assumed_angle_error: Rational = 0,
+        pivot: Sequence[Rational] = (0, 0),
     ) -> PosePath:
         """Return the path that consists of given pieces, after a proof that they follow it.
 
         Args:
-            pieces: as for `Pieces`: rigid motions about the origin, the first until the first time,
+            pieces: as for `Pieces`: rigid motions about the pivot, the first until the first time,
                 the last from the last time on, and in no other piece two pieces of the path.
             times: see `PosePath`.
             poses: see `PosePath`.
             error: see `PosePath`.
             place_error: see `PosePath`.
             assumed_angle_error: the part of the error that is not proved (see the attribute).
+            pivot: see `PosePath`.
 
         Raises:
             InputError: if they do not follow the path within the errors.
         """
         self = cls.__new__(cls)
         Pieces.__init__(self, pieces)
-        self._hold(times, poses, error, place_error, assumed_angle_error)
+        self._hold(times, poses, error, place_error, pivot, assumed_angle_error)
+        self._check_pivots()
         if (wrong := self._not_within()) is not None:
             raise InputError(
                 f"the pieces do not follow the path within {show(self.exact_error)} (piece {wrong})"
@@ -329,6 +356,15 @@ class PosePath(Pieces):
             spans.append((begin, end, (x(since), y(since), angle(since))))
         return spans
 
+    def _check_pivots(self) -> None:
+        """Check that all rigid pieces turn about the pivot."""
+        for i, turn in enumerate(self.motions):
+            if isinstance(turn, Rigid) and turn.exact_pivot != self._pivot:
+                raise InputError(
+                    f"the pieces of a path turn about its pivot, {show(*self._pivot)}, got "
+                    f"{show(*turn.exact_pivot)} (piece {i})"
+                )
+
     def _not_within(self) -> int | None:
         """Return the number of a piece that is not proved to be within the errors; None if none.
 
@@ -343,7 +379,7 @@ class PosePath(Pieces):
         for i, ((a, b), turn) in enumerate(zip(rows, self.motions, strict=True)):
             while k < len(spans) - 1 and a >= spans[k][1]:
                 k += 1
-            if not isinstance(turn, Rigid) or any(turn.exact_pivot) or b > spans[k][1]:
+            if not isinstance(turn, Rigid) or b > spans[k][1]:
                 return i
             if a == b and max(turn.half_turn.degree, turn.x.degree, turn.y.degree) > 0:
                 return i
@@ -358,6 +394,11 @@ class PosePath(Pieces):
     def times(self) -> tuple[Fraction, ...]:
         """The times at which the pieces of the path begin, and the last one ends."""
         return fractions(self.exact_times)
+
+    @property
+    def pivot(self) -> tuple[Fraction, Fraction]:
+        """The point of the rest frame about which the body turns."""
+        return place(self._pivot)
 
     @property
     def error(self) -> Fraction:
@@ -420,7 +461,11 @@ class PosePath(Pieces):
             self.exact_error,
             total,
             self.exact_assumed_angle_error,
+            self._pivot,
         )
+
+    def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        return self.exact_assumed_place_error(), self.exact_assumed_angle_error
 
     def pose(self, t: Rational) -> tuple[Fraction, Fraction, Fraction]:
         """Return x, y and the angle of the path itself at a time."""
@@ -440,7 +485,8 @@ class PosePath(Pieces):
         errors = map(
             str, (self.exact_error, self.exact_place_error, self.exact_assumed_angle_error)
         )
-        return (pieces, times, self.exact_poses, *errors), {}
+        pivot = tuple(map(str, self._pivot))
+        return (pieces, times, self.exact_poses, *errors, pivot), {}
 
     def __reduce__(self) -> tuple[object, ...]:
         return PosePath.of_pieces, self._given()[0]

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Final, final
 
 from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import (
     QQ,
@@ -42,7 +43,7 @@ Vector = tuple[QQ, QQ]
 
 
 def pieces_along(
-    spans: list[tuple[QQ, QQ, Pose]], error: QQ, place_error: QQ
+    spans: list[tuple[QQ, QQ, Pose]], error: QQ, place_error: QQ, pivot: Point
 ) -> list[tuple[Rational | None, SimpleMotion]]:
     """Return pieces along a path, with rest before and after it.
 
@@ -50,19 +51,20 @@ def pieces_along(
         spans: beginning, end, and pose as polynomials of t of each piece of the path.
         error: the largest error of the angle, in radians.
         place_error: the largest error of the translation; 0 to take x and y as they are.
+        pivot: the point about which the pieces turn.
 
     Raises:
         InputError: if the error is too small, or more than 100,000 pieces are needed.
     """
-    return _Builder(error, place_error).along(spans)
+    return _Builder(error, place_error, pivot).along(spans)
 
 
 @final
 class _Builder:
     """Pieces along a path, each proved to be within the errors."""
 
-    def __init__(self, error: QQ, place_error: QQ) -> None:
-        self._error, self._place_error = error, place_error
+    def __init__(self, error: QQ, place_error: QQ, pivot: Point) -> None:
+        self._error, self._place_error, self._pivot = error, place_error, pivot
         self._bits = bits_for(error, QQ(0)) + 2
         self._place_bits = bits_for(place_error, QQ(0)) + 2 if place_error else 0
         self._vectors: dict[QQ, Vector] = {}
@@ -106,6 +108,7 @@ class _Builder:
         x, y, angle = pose
         return Rigid(
             ZERO,
+            pivot=self._pivot,
             x=self._place(x.exact_at(t)),
             y=self._place(y.exact_at(t)),
             orientation=self._vector(t, angle),
@@ -137,7 +140,7 @@ class _Builder:
         px, py, off = x, y, QQ(0)
         if self._place_error:
             px, py = (self._fit(f(local))(back) for f in (x, y))
-        turn = Rigid(h, x=px, y=py, orientation=u)
+        turn = Rigid(h, pivot=self._pivot, x=px, y=py, orientation=u)
         if self._place_error:
             off = place_error_squared(turn, a, b, x, y) / self._place_error**2
         err = angle_error(turn, a, b, angle, self._error) / self._error

@@ -141,6 +141,12 @@ class Spin(Pieces):
         return fraction(self.exact_omega)
 
     @property
+    def pivot(self) -> tuple[Fraction, Fraction]:
+        """The centre of rotation."""
+        turn = next(turn for turn in self.motions if isinstance(turn, Rigid))
+        return turn.pivot
+
+    @property
     def error(self) -> Fraction:
         """The largest error of the angle, in radians."""
         return fraction(self.exact_error)

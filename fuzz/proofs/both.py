@@ -90,9 +90,9 @@ def along_paths(number: int) -> Scene:
         ends = [sum(f) for f in (x, y, angle)]  # after a unit of time
         later = [[end, few(2)] for end in ends]
         triangle = [(few(3) - 2, few(1) - 1), (few(1) + 2, few(1) - 1), (few(1), few(1) + 2)]
-        errors = {"error": Fraction(1, random.choice((20, 1000)))}
-        errors["place_error"] = Fraction(random.choice((0, 0, 1)), 50)
-        path = PosePath([0, 1, 2], [(x, y, angle), later], **errors)
+        error = Fraction(1, random.choice((20, 1000)))
+        place_error = Fraction(random.choice((0, 0, 1)), 50)
+        path = PosePath([0, 1, 2], [(x, y, angle), later], error=error, place_error=place_error)
         bodies.append(Body(f"p{i}", triangle, path))
     return Scene(bodies, (0, 2))
 

@@ -1,5 +1,6 @@
 """Paths of poses, against mpmath at 60 digits."""
 
+import copy
 import json
 import pickle
 from fractions import Fraction
@@ -8,6 +9,7 @@ from random import Random
 from types import SimpleNamespace
 
 import mpmath
+import numpy as np
 import pytest
 
 from exactpt import (
@@ -22,6 +24,7 @@ from exactpt import (
 )
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.displacement import displacement
 from exactpt.motion.path_error import angle_error, place_error_squared
 
 
@@ -313,10 +316,12 @@ def test_pickles_and_tampered_pieces():
             {"y": motion.y + Polynomial([0, QQ(1, 10**9)])},
             {"pivot": (0, 1)},
         ]:
+            wrong_pivot = "pivot" in change
             half = change.pop("half_turn", motion.half_turn)
             kept = {"x": motion.x, "y": motion.y, "orientation": motion.orientation} | change
             wrong = [*pieces[:i], (end, Rigid(half, **kept)), *pieces[i + 1 :]]
-            with pytest.raises(InputError, match=rf"do not follow the path .* \(piece {i}\)"):
+            words = "turn about its pivot" if wrong_pivot else "do not follow the path"
+            with pytest.raises(InputError, match=rf"{words}.* \(piece {i}\)"):
                 PosePath.of_pieces(wrong, *given)
     with pytest.raises(InputError, match="do not follow"):
         PosePath.of_pieces(pieces[1:], *given)
@@ -428,3 +433,47 @@ def test_a_path_that_is_known_less_well_has_wider_bounds():
     assert low > far
     with pytest.raises(InputError, match="a place_error is not negative: -1"):
         path.with_place_error(-1)
+
+
+def test_a_path_about_a_pivot_moves_a_body_as_one_about_the_origin_moves_it_shifted():
+    # R (p - pivot) + pivot + (x, y): shifted by -pivot, moved about the origin, shifted back.
+    px, py = Fraction(7, 3), Fraction(-5)
+    poses = [([0, 1], [0, 0, 1], [0, "1/2"]), ([1, 2], [1, 1], "1/2")]
+    path = PosePath([0, 1, 2], poses, error="1/1000", pivot=(px, py))
+    about_origin = PosePath([0, 1, 2], poses, error="1/1000")
+    square = [(0, 0), (4, 0), (4, 1), (0, 1)]
+    shifted = [(x - px, y - py) for x, y in square]
+    for t in (-1, 0, Fraction(1, 3), 1, Fraction(7, 5), 2, 9):
+        expected = [(x + px, y + py) for x, y in Body("b", shifted, about_origin).at(t)]
+        assert Body("b", square, path).at(t) == expected
+    assert path.pivot == (px, py)
+    assert path.pose(1) == about_origin.pose(1)
+
+
+def test_a_pivot_is_kept_by_every_way_to_make_a_path():
+    pivot = (Fraction(1, 3), Fraction(2))
+    curve = SimpleNamespace(c=np.array([[[1.0, 0, 0.1]], [[0, 0, 0.2]]]), x=[0, 1])
+    through = PosePath.through([0, 1], [(0, 0, 0), (1, 0, 1)], pivot=pivot)
+    for path in (through, PosePath.of_curve(curve, pivot=pivot)):
+        further = path.with_place_error("1/7")
+        copies = (path, further, pickle.loads(pickle.dumps(path)), copy.deepcopy(path))
+        assert {one.pivot for one in copies} == {pivot}
+        assert pickle.loads(pickle.dumps(further)) == further
+    other = PosePath.through([0, 1], [(0, 0, 0), (1, 0, 1)])
+    assert through != other
+
+
+@pytest.mark.parametrize("pivot", [(1,), (1, 2, 3), "12", 5, None, (True, 0), ("nan", 0)])
+def test_a_pivot_that_is_no_point_is_refused(pivot):
+    with pytest.raises(InputError):
+        PosePath([0, 1], [(0, 0, 0)], pivot=pivot)
+
+
+def test_a_displacement_by_an_angle_error_is_measured_from_the_pivot():
+    # The corners of the square are sqrt(2) from its middle, and the middle is 1000 from the origin.
+    square = [(999, -1), (1001, -1), (1001, 1), (999, 1)]
+    poses = [(0, 0, [0, 1])]
+    near = Body("b", square, PosePath([0, 1], poses, error="1/1000", pivot=(1000, 0)))
+    far = Body("b", square, PosePath([0, 1], poses, error="1/1000"))
+    assert QQ(14, 10**4) < displacement(near, QQ(0), QQ(1)) < QQ(15, 10**4)
+    assert displacement(far, QQ(0), QQ(1)) > 1
