@@ -44,11 +44,11 @@ from typing import Final, NamedTuple, final
 
 from exactpt.brief import record_in_brief
 from exactpt.collision.detector import first_contact
-from exactpt.errors import carrying
+from exactpt.errors import InputError, carrying
 from exactpt.geometry.polygon import near_groups
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
+from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import Placed, displacement, placed_at
 from exactpt.motion.outline import may_touch_itself
@@ -140,11 +140,24 @@ def first_contact_enclosed(
 
     Raises:
         InputError: if the scene is not a `Scene`, a name is unknown, a group is wrong, or a named
-            pair is ignored.
+            pair is ignored; or if an error is stated of a body itself (`Body.with_errors`): the
+            bounds do not take these into account.
     """
     a_scene(scene)
+    _refuse_stated_errors(scene)
     with carrying(lambda: scene):
         return _Search(scene, Selection(scene, between, ignoring)).run()
+
+
+def _refuse_stated_errors(scene: Scene) -> None:
+    """Refuse a scene with errors that the bounds would not obey."""
+    for body in scene.bodies:
+        for key, value in body.exact_errors.given().items():
+            raise InputError(
+                f"body {shorten(body.name)}: {key}: first_contact_enclosed obeys errors of motions "
+                f"only, got {shorten(value)}; leave it out, or state it by "
+                f"PosePath.with_place_error"
+            )
 
 
 @final

@@ -34,6 +34,7 @@ from exactpt.motion.motions import (
     made,
 )
 from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
+from exactpt.motion.stated_errors import NONE_STATED, StatedErrors, read_stated_errors
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
 _NO_HOLES: Final = ()
+_SAME_SHAPE: Final = (0, 0)
 
 
 def _has_texts(properties: object) -> bool:
@@ -94,6 +96,14 @@ class Body:
         parts: instead of vertices, the parts of the body, disjoint or touching each other in
             single points: outlines, or mappings with "vertices" and "holes".
         radius: a number >= 0.
+        place_error: the largest distance >= 0, at every time, by which the true body is moved from
+            where it is modelled. Questions about the modelled bodies do not use this error, nor
+            the next ones (docs/howto/motions.md#stated-errors).
+        angle_error: the largest angle >= 0, in radians, by which it is turned.
+        shape_error: two distances >= 0: the largest one of a point of the true shape from the
+            modelled shape, and of a point of the modelled shape from the true one.
+        pivot: the reference point of the angle error, in the rest frame. Needed with an angle error
+            above 0, if the motion has no pivot of its own; not allowed otherwise.
         properties: further data, such as those of a GeoJSON feature, see `properties`.
 
     Raises:
@@ -106,9 +116,10 @@ class Body:
         "_parts",
         "_properties",
         "closed",
+        "exact_errors",
         "exact_radius",
         "exact_shape",
-        "name"
+        "name",
     )  # fmt: skip
 
     def __init__(
@@ -122,6 +133,10 @@ class Body:
         holes: Iterable[Outline] = _NO_HOLES,
         parts: Iterable[PartLike] | None = None,
         radius: Rational = 0,
+        place_error: Rational = 0,
+        angle_error: Rational = 0,
+        shape_error: Sequence[Rational] = _SAME_SHAPE,
+        pivot: Sequence[Rational] | None = None,
         properties: Mapping[str, object] | None = None,
     ) -> None:
         if not is_text(name):
@@ -144,6 +159,11 @@ class Body:
             else:
                 self._read_rings(vertices, keyframes, listed("holes", holes), parts)
             self._course = Course(self.exact_shape, motion)
+            self.exact_errors = NONE_STATED
+            if _is_any_stated(place_error, angle_error, shape_error, pivot):
+                self.exact_errors = read_stated_errors(
+                    motion, place_error, angle_error, shape_error, pivot
+                )
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
 
@@ -226,13 +246,17 @@ class Body:
     def with_motion(self, motion: Motion) -> Body:
         """Return a body of the same name and shape with another motion.
 
+        An angle error is about the same reference point as before.
+
         Raises:
-            InputError: if it is not a motion, or jumps.
+            InputError: if it is not a motion, or jumps; or if the body has an angle error, and the
+                motion turns about another point than the reference point.
         """
         _check_motion(self.name, motion)
         other = self._copied()
         try:
             other._course = Course(self.exact_shape, motion)  # noqa: SLF001
+            other.exact_errors = self.exact_errors.with_motion(self.motion, motion)
         except InputError as error:
             raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
@@ -240,10 +264,19 @@ class Body:
     def halted(self, t: Rational) -> Body:
         """Return a body of the same name and kind at rest, as this one is at a rational time.
 
-        It is where the rational pieces of its motion are, without the error of a path, a spin or
-        a spline.
+        It is where the rational pieces of its motion are, without the error by which these are
+        fitted to a path or a spin. Errors that are stated of the body stay, and what is assumed of
+        its motion, such as by `PosePath.with_place_error`, becomes an error of the body: it is not
+        known better because it stands.
+
+        >>> from exactpt import PosePath
+        >>> path = PosePath([0, 4], [([0, 1], 0, 0)]).with_place_error("1/10")
+        >>> halted = Body("probe", [(0, 0)], path).halted(3)
+        >>> halted.at(3), halted.place_error
+        ([(Fraction(3, 1), Fraction(0, 1))], Fraction(1, 10))
         """
-        points = self.exact_at(rational(t))
+        now = rational(t)
+        points = self.exact_at(now)
         if self._parts is None:
             body = Body(self.name, points, closed=self.closed, radius=str(self.exact_radius))
         else:
@@ -252,6 +285,8 @@ class Body:
             given = parts_given(self._parts, points)
             body = Body(self.name, radius=str(self.exact_radius), **given)  # type: ignore[arg-type]
         body._properties = self._properties
+        assumed = self.exact_errors.plus_assumed_of(self.motion)
+        body.exact_errors = assumed.halted(self.motion, self.exact_piece_after(now).motion, now)
         return body
 
     def with_radius(self, radius: Rational) -> Body:
@@ -262,6 +297,42 @@ class Body:
         """
         other = self._copied()
         other.exact_radius = _read_radius(self.name, radius)
+        return other
+
+    def with_errors(
+        self,
+        *,
+        place_error: Rational = 0,
+        angle_error: Rational = 0,
+        shape_error: Sequence[Rational] = _SAME_SHAPE,
+        pivot: Sequence[Rational] | None = None,
+    ) -> Body:
+        """Return a body of the same name, shape and motion with these stated errors alone.
+
+        >>> box = Body("box", [(0, 0), (2, 0), (2, 1), (0, 1)])
+        >>> measured = box.with_errors(place_error="1/100", angle_error="1/1000", pivot=(1, "1/2"))
+        >>> measured.place_error, measured.reference_point
+        (Fraction(1, 100), (Fraction(1, 1), Fraction(1, 2)))
+
+        Args:
+            place_error: see `Body`.
+            angle_error: see `Body`.
+            shape_error: see `Body`.
+            pivot: see `Body`.
+
+        Raises:
+            InputError: see `Body`.
+        """
+        try:
+            stated = read_stated_errors(self.motion, place_error, angle_error, shape_error, pivot)
+        except InputError as error:
+            raise InputError(f"body {shorten(self.name)}: {error}") from None
+        return self.exact_with_errors(stated)
+
+    def exact_with_errors(self, errors: StatedErrors) -> Body:
+        """Return a body of the same name, shape and motion with errors that were read before."""
+        other = self._copied()
+        other.exact_errors = errors
         return other
 
     def _copied(self) -> Body:
@@ -293,6 +364,39 @@ class Body:
     def radius(self) -> Fraction:
         """The body is all points within this distance of its core; 0 unless it is rounded."""
         return fraction(self.exact_radius)
+
+    @property
+    def place_error(self) -> Fraction:
+        """The largest distance by which the true body is moved from the modelled place; stated."""
+        return fraction(self.exact_errors.place)
+
+    @property
+    def angle_error(self) -> Fraction:
+        """The largest angle, in radians, by which the true body is turned; stated."""
+        return fraction(self.exact_errors.angle)
+
+    @property
+    def shape_error(self) -> tuple[Fraction, Fraction]:
+        """The largest distances between the true shape and the modelled one; stated.
+
+        That of a point of the true shape from the modelled one, then that of a point of the
+        modelled shape from the true one.
+        """
+        return place(self.exact_errors.shape)
+
+    @property
+    def pivot(self) -> tuple[Fraction, Fraction] | None:
+        """The reference point as it was given; None if the motion has it. See `reference_point`."""
+        return None if self.exact_errors.pivot is None else place(self.exact_errors.pivot)
+
+    @property
+    def reference_point(self) -> tuple[Fraction, Fraction] | None:
+        """The point of the rest frame about which the angle error turns the body.
+
+        It is the pivot of the motion, or else of the body; None without an angle error.
+        """
+        point = self.exact_errors.reference_point(self.motion)
+        return None if point is None else place(point)
 
     @property
     def vertices(self) -> tuple[Position, ...]:
@@ -423,6 +527,7 @@ class Body:
             and (self.exact_radius, self._parts) == (other.exact_radius, other._parts)
             and self.vertices == other.vertices
             and self.exact_shape.keyframes == other.exact_shape.keyframes
+            and self.exact_errors == other.exact_errors
             and self.motion == other.motion
         )
 
@@ -433,6 +538,7 @@ class Body:
         options: dict[str, object] = {"motion": self.motion, "closed": self.closed}
         if self.exact_radius:
             options["radius"] = str(self.exact_radius)
+        options |= self.exact_errors.given()
         if self._properties:
             options["properties"] = self._properties
         given = self.exact_shape.given()
@@ -448,7 +554,8 @@ class Body:
         rounded = f", radius {show(self.exact_radius)}" if self.exact_radius else ""
         rings = f" in {counted(len(self.rings), 'ring')}" if self.has_rings else ""
         vertices = counted(self.size, "vertex")
-        return f"<Body {in_brief(self.name, 60)}: {what} of {vertices}{rings}{rounded}>"
+        within = ", with stated errors" if any(self.exact_errors.sizes) else ""
+        return f"<Body {in_brief(self.name, 60)}: {what} of {vertices}{rings}{rounded}{within}>"
 
 
 def _read_radius(name: str, radius: Rational) -> QQ:
@@ -461,6 +568,15 @@ def _read_radius(name: str, radius: Rational) -> QQ:
     if exact < 0:
         raise InputError(f"body {shorten(name)}: radius: it is negative: {show(exact)}")
     return exact
+
+
+def _is_any_stated(
+    place_error: Rational, angle_error: Rational, shape_error: object, pivot: object
+) -> bool:
+    """Return True if an error differs from its default: most bodies state none."""
+    sizes = (place_error, angle_error)
+    are_plain_zeros = all(type(size) in _PLAIN and size == 0 for size in sizes)
+    return pivot is not None or shape_error is not _SAME_SHAPE or not are_plain_zeros
 
 
 def _check_sorts(name: str, *given: object) -> None:

@@ -4,7 +4,7 @@ Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the tr
 span and after it, that at its start and at its end). About the pivot, a point at a distance r from
 it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r |a - a'| apart; the translation
 that follows is the same. The distance from the pivot is convex, so on an edge it is largest at a
-vertex. The pieces of a `PosePath` turn about the origin likewise; their translation has an error of
+vertex. The pieces of a `PosePath` turn about its pivot likewise; their translation has an error of
 its own, and the two errors add up. The pieces of a `Spline` are translated, with an error.
 
 **At one time**, a body may be known better. Of an error, a part may be proved: that of fitting
@@ -76,11 +76,7 @@ def has_assumed_error(motion: Motion) -> bool:
     >>> has_assumed_error(path), has_assumed_error(path.with_place_error("1/10"))
     (False, True)
     """
-    if isinstance(motion, Spline):
-        return motion.exact_error > 0
-    if isinstance(motion, PosePath):
-        return motion.exact_assumed_angle_error > 0 or motion.exact_assumed_place_error() > 0
-    return False
+    return isinstance(motion, Pieces) and any(motion.exact_assumed_errors())
 
 
 def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
@@ -97,9 +93,9 @@ def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
         return Placed(body, displacement)
     error = QQ(0)
     if isinstance(motion, PosePath):
-        error = motion.exact_assumed_place_error()
-        if motion.exact_assumed_angle_error:
-            error += _longest_arm(body, motion, t, t) * motion.exact_assumed_angle_error
+        error, angle_error = motion.exact_assumed_errors()
+        if angle_error:
+            error += _longest_arm(body, motion, t, t) * angle_error
     return Placed(body.with_motion(unturned), error)
 
 

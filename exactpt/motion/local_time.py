@@ -112,6 +112,9 @@ class Spline(Pieces):
         """The largest distance of the given curve from the pieces: the jumps that were closed."""
         return fraction(self.exact_error)
 
+    def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        return self.exact_error, QQ(0)
+
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         (pieces,), _ = super()._given()
         return (pieces, str(self.exact_error)), {}

@@ -296,6 +296,10 @@ class Pieces(_Given):
         """The motions with their end times, None for the last: the argument of `Pieces`."""
         return tuple(zip([*self.until, None], self.motions, strict=True))
 
+    def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        """Return the errors of the place and of the angle that nothing proves of a motion."""
+        return QQ(0), QQ(0)
+
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         ends = [*map(str, self.exact_until), None]
         return (tuple(zip(ends, self.motions, strict=True)),), {}

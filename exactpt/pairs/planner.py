@@ -82,7 +82,8 @@ class Planner:
         Raises:
             InputError: see `first_contact`.
         """
-        at_rest = shape if isinstance(shape, Body) else Body(NAME, shape)
+        given = shape if isinstance(shape, Body) else Body(NAME, shape)
+        at_rest = given.with_errors()  # they are about a pivot that the motions need not have
         if any(body.name == at_rest.name for body in self._scene.bodies):
             raise InputError(f"body {shorten(at_rest.name)}: the name is taken by an obstacle")
         outline = rest_outline(at_rest)

@@ -11,8 +11,9 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
-from exactpt.motion.motions import REST, is_affine
+from exactpt.motion.motions import REST, Motion, is_affine
 from exactpt.motion.shape import are_constant, listed
+from exactpt.motion.stated_errors import StatedErrors
 from exactpt.motion.track import Track, difference
 from exactpt.scene.scene import Scene
 
@@ -39,7 +40,8 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
     Args:
         bodies: polygons without a radius that do not deform, with equal motions or all at rest.
             Motions may be written differently, such as by other pieces. One with an error (of a
-            path, a spin or a spline) is equal only to the same one.
+            path, a spin or a spline) is equal only to the same one. Place and angle errors that are
+            stated of them are equal, too: the result has these, and the largest shape errors.
             The parts of one body may overlap, too: each needs to be valid only by itself.
         name: the name of the result.
 
@@ -49,8 +51,8 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
         that comes first in the bodies.
 
     Raises:
-        InputError: if a body is not such a polygon or not valid, if motions differ, or if there is
-            no body.
+        InputError: if a body is not such a polygon or not valid, if motions or stated errors
+            differ, or if there is no body.
     """
     given = listed("bodies", bodies)
     if not given:
@@ -61,9 +63,11 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
     other = next((body for body in given if not _have_equal_motions(first, body)), None)
     if other is None:
         motion, outlines = first.motion, [(body, _rest_points(body)) for body in given]
+        errors = _common_errors(given, [body.exact_errors for body in given])
     elif all(map(_is_at_rest, given)):
         _check_error(given)
         motion, outlines = REST, [(body, body.exact_at(QQ(0))) for body in given]
+        errors = _common_errors(given, list(map(_errors_at_rest, given)))
     else:
         raise InputError(
             f"union: bodies {shorten(first.name)} and {shorten(other.name)} move differently: only "
@@ -75,7 +79,34 @@ def union(bodies: Iterable[Body], *, name: str) -> Body:
     except InputError as error:
         raise InputError(f"union: {error}") from None
     made = [{"vertices": part.outline, "holes": part.holes} for part in united]
-    return Body(name, motion=motion, parts=made)
+    return Body(name, motion=motion, parts=made).exact_with_errors(errors)
+
+
+def _errors_at_rest(body: Body) -> StatedErrors:
+    """Return the errors of a body that never moves, with a reference point in the scene."""
+    return body.exact_errors.halted(body.motion, body.exact_piece_after(QQ(0)).motion, QQ(0))
+
+
+def _common_errors(bodies: Sequence[Body], errors: Sequence[StatedErrors]) -> StatedErrors:
+    """Return the stated errors of a union of bodies that are known within the same errors.
+
+    Bodies of one error of the place or the angle are taken to be out of place together: else their
+    union would have no fixed shape. A point of the true union is in a true body, so at most the
+    largest shape error from the modelled ones; likewise the other way round.
+    """
+    first = errors[0]
+    for body, other in zip(bodies, errors, strict=True):
+        if _of_pose(other, body.motion) != _of_pose(first, bodies[0].motion):
+            raise InputError(
+                f"union: bodies {shorten(bodies[0].name)} and {shorten(body.name)} have different "
+                f"place or angle errors: give all the bodies the same ones, or none"
+            )
+    inner, outer = (max(of_shape) for of_shape in zip(*(e.shape for e in errors), strict=True))
+    return first._replace(shape=(inner, outer))
+
+
+def _of_pose(errors: StatedErrors, motion: Motion) -> tuple[object, ...]:
+    return errors.place, errors.angle, errors.reference_point(motion)
 
 
 def _check_polygon(body: object) -> None:
