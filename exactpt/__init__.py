@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
     from exactpt.scene.union import union
+    from exactpt.scene.units import Units
     from exactpt.simulation.event import RunEvent
     from exactpt.simulation.history import History
     from exactpt.simulation.motion_changes import onward
@@ -95,6 +96,7 @@ __all__ = [
     "Spin",
     "Surroundings",
     "Translation",
+    "Units",
     "UnreachableError",
     "Velocity",
     "certify",
@@ -151,6 +153,7 @@ _MODULES: Final = {
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),
     "exactpt.scene.union": ("union",),
+    "exactpt.scene.units": ("Units",),
     "exactpt.simulation.event": ("RunEvent",),
     "exactpt.simulation.history": ("History",),
     "exactpt.simulation.motion_changes": ("onward",),

@@ -226,7 +226,7 @@ def write_shapes(
         at: the time, which may be irrational; by default the start.
         tolerance: maximum distance of a chord from its arc; by default a hundredth of the radius.
         strict: whether data that would be left out are an error; so are radii, motions if no time
-            is given, and errors that are stated of motions.
+            is given, errors that are stated of motions and of bodies, units and the epoch.
 
     Raises:
         InputError: if the time is outside the time span, or the file cannot be written.
@@ -282,6 +282,8 @@ def lost_by_writing(
             losses.count("motion", "body")
         elif has_assumed_error(body.motion):
             losses.count("error of the motion", "body")
+        for error in _stated_errors(body):
+            losses.count(error, "body")
         if kind != "mfjson" and body.exact_radius:
             losses.count("radius", "body")
         if not _keeps_name(body.name, i, kind):
@@ -292,7 +294,22 @@ def lost_by_writing(
             losses.count("property name", "body")
         if kind == "svg" and len(body.parts) > 1:
             losses.count("unity of the parts", "body")
+    if scene.units is not None:
+        losses.add("units")
+    if scene.epoch is not None:
+        losses.add("epoch")
     return losses.texts()
+
+
+def _stated_errors(body: Body) -> list[str]:
+    """Return what errors are stated of a body."""
+    stated = body.exact_errors
+    sizes = {
+        "place error": stated.place,
+        "angle error": stated.angle,
+        "shape error": max(stated.shape),
+    }
+    return [error for error, size in sizes.items() if size]
 
 
 def _keeps_name(name: str, number: int, kind: Format) -> bool:

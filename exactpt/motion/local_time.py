@@ -113,6 +113,7 @@ class Spline(Pieces):
         return fraction(self.exact_error)
 
     def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        """See `Pieces.exact_assumed_errors`: the error of the fit is a distance."""
         return self.exact_error, QQ(0)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:

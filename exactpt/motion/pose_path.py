@@ -465,6 +465,7 @@ class PosePath(Pieces):
         )
 
     def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        """See `Pieces.exact_assumed_errors`: what callers stated of the path."""
         return self.exact_assumed_place_error(), self.exact_assumed_angle_error
 
     def pose(self, t: Rational) -> tuple[Fraction, Fraction, Fraction]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from exactpt.errors import InputError
 from exactpt.files import read_text
@@ -36,9 +37,12 @@ from exactpt.scene.json_values import (
     with_long_texts,
 )
 from exactpt.scene.scene import Scene
+from exactpt.scene.units import Units, read_units
 
 _RECORDS: Final = ("spin", "path", "spline")
 """The records that may stand beside the pieces of a motion, one at most."""
+_ERRORS: Final = ("place_error", "angle_error", "shape_error", "pivot")
+"""The keys of a body that state errors of it."""
 _CONVERT: Final = "exactpt convert makes a scene of such a file"
 
 
@@ -97,7 +101,8 @@ def _check_kind(data: Json) -> None:
 
 def _scene(data: Json) -> Scene:
     _check_kind(data)
-    top = an_object(data, "scene", required=["exactpt", "time", "bodies"], optional={"ignoring"})
+    required = ["exactpt", "time", "bodies"]
+    top = an_object(data, "scene", required=required, optional={"ignoring", "units", "epoch"})
     if top["exactpt"] != Number(VERSION) or not isinstance(top["exactpt"], Number):
         raise InputError(
             f'"exactpt": this version reads format {VERSION}, not {shown(top["exactpt"])}'
@@ -105,7 +110,7 @@ def _scene(data: Json) -> Scene:
     span = a_list(top["time"], '"time"', length=2)
     time = [exact_number(span[0], '"time"[0]'), exact_number(span[1], '"time"[1]')]
     bodies = [_body(b, i) for i, b in enumerate(a_list(top["bodies"], '"bodies"'))]
-    return Scene(bodies, time, ignoring=_groups(top))
+    return Scene(bodies, time, ignoring=_groups(top), units=_units(top), epoch=_epoch(top))
 
 
 def _groups(top: dict[str, Json]) -> list[list[str]]:
@@ -122,6 +127,29 @@ def _groups(top: dict[str, Json]) -> list[list[str]]:
     return groups
 
 
+def _units(top: dict[str, Json]) -> Units | None:
+    if "units" not in top:
+        return None
+    units = an_object(top["units"], '"units"', optional={"length", "time"})
+    for kind, unit in units.items():
+        _check_plain_text(unit, f'"units": "{kind}"')
+    return read_units({kind: str(unit) for kind, unit in units.items()})
+
+
+def _epoch(top: dict[str, Json]) -> str | None:
+    if "epoch" not in top:
+        return None
+    epoch = top["epoch"]
+    _check_plain_text(epoch, '"epoch"')
+    return str(epoch)
+
+
+def _check_plain_text(data: Json, where: str) -> None:
+    """Refuse what is not a text: a number, too, of which the text is kept."""
+    if not isinstance(data, str) or isinstance(data, Number):
+        raise InputError(f"{where}: not a text, got {shown(data)}")
+
+
 def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
@@ -135,6 +163,7 @@ def _body(data: Json, index: int) -> Body:
         "holes",
         "parts",
         "properties",
+        *_ERRORS,
     }
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
@@ -151,20 +180,56 @@ def _body(data: Json, index: int) -> Body:
     motion = _motion(body["motion"], f'{where}: "motion"') if "motion" in body else REST
     radius = _radius(body["radius"], f'{where}: "radius"') if "radius" in body else QQ(0)
     more = properties_in(body.get("properties", {}), f'{where}: "properties"')
+    errors = _stated_errors(body, where)
     if "keyframes" in body:
         frames = _keyframes(body["keyframes"], f'{where}: "keyframes"')
         return Body(
-            name, motion=motion, closed=closed, keyframes=frames, radius=radius, properties=more
+            name,
+            motion=motion,
+            closed=closed,
+            keyframes=frames,
+            radius=radius,
+            properties=more,
+            **errors,
         )
     if "parts" in body:
         rows = a_list(body["parts"], f'{where}: "parts"')
         if not rows:
             raise InputError(f'{where}: "parts": at least one part is needed')
         parts = [_part(row, f"{where}: part {i}") for i, row in enumerate(rows)]
-        return Body(name, None, motion, parts=parts, closed=closed, radius=radius, properties=more)
+        return Body(
+            name,
+            motion=motion,
+            parts=parts,
+            closed=closed,
+            radius=radius,
+            properties=more,
+            **errors,
+        )
     vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)
     holes = _holes(body, where)
-    return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius, properties=more)
+    return Body(
+        name,
+        vertices,
+        motion,
+        closed=closed,
+        holes=holes,
+        radius=radius,
+        properties=more,
+        **errors,
+    )
+
+
+def _stated_errors(body: dict[str, Json], where: str) -> dict[str, Any]:
+    """Return the stated errors of a body, as arguments of `Body`."""
+    errors: dict[str, Any] = {}
+    for key in ("place_error", "angle_error"):
+        if key in body:
+            errors[key] = exact_number(body[key], f'{where}: "{key}"')
+    for key in ("shape_error", "pivot"):
+        if key in body:
+            errors[key] = _pair(body, key, where, ("0", "0"))
+    return errors
 
 
 def _part(data: Json, where: str) -> dict[str, object]:
@@ -250,7 +315,9 @@ def _motion(data: Json, where: str) -> Motion:
             if spin:
                 from exactpt.motion.spin import Spin
 
-                return Spin.of_pieces(pieces, *spin)
+                turning = Spin.of_pieces(pieces, *spin)
+                _check_pivot(turning.pivot, data["spin"])
+                return turning
             if off is not None:
                 from exactpt.motion.local_time import Spline
 
@@ -262,9 +329,21 @@ def _motion(data: Json, where: str) -> Motion:
 
 
 def _rate_and_error(data: Json, where: str) -> tuple[QQ, QQ]:
-    spin = an_object(data, where, required=["omega", "error"])
+    spin = an_object(data, where, required=["omega", "error"], optional={"pivot"})
     omega, error = (exact_number(spin[key], f'{where}: "{key}"') for key in ("omega", "error"))
     return omega, error
+
+
+def _check_pivot(pivot: tuple[Fraction, Fraction], spin: Json) -> None:
+    """Check that the record of a spin names no other pivot than its pieces have."""
+    if not isinstance(spin, dict) or "pivot" not in spin:
+        return
+    named = _pair(spin, "pivot", '"spin"', ("0", "0"))
+    if (named[0], named[1]) != pivot:
+        raise InputError(
+            f'"spin": "pivot": it must be that of the pieces, {show(*map(QQ, pivot))}, got '
+            f"{show(*named)}"
+        )
 
 
 def _spline_error(data: Json, where: str) -> QQ:
@@ -273,10 +352,10 @@ def _spline_error(data: Json, where: str) -> QQ:
     return exact_number(spline["error"], f'{where}: "error"')
 
 
-def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ, QQ, QQ]:
-    """Return the times, the poses and the three errors of a path."""
+def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ, QQ, QQ, list[QQ]]:
+    """Return the times, the poses, the three errors and the pivot of a path."""
     required = ["error", "place_error", "times", "poses"]
-    path = an_object(data, where, required=required, optional={"assumed_angle_error"})
+    path = an_object(data, where, required=required, optional={"assumed_angle_error", "pivot"})
     times = [exact_number(t, f'{where}: "times"') for t in a_list(path["times"], where)]
     poses = []
     for i, row in enumerate(a_list(path["poses"], where)):
@@ -287,7 +366,8 @@ def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ,
     assumed = exact_number(
         path.get("assumed_angle_error", Number("0")), f'{where}: "assumed_angle_error"'
     )
-    return times, poses, error, off, assumed
+    pivot = _pair(path, "pivot", where, ("0", "0"))
+    return times, poses, error, off, assumed, pivot
 
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
     from exactpt.scene.body_arrays import BodyArrays
+    from exactpt.scene.units import Units
 
 
 @final
@@ -50,16 +51,28 @@ class Scene:
         lost: data that `exactpt.read_shapes` left out of the file that it read, such as "crs"
             or "z of 40 points", or `from_shapely` of geometries. Empty for other scenes, also for
             those that are made of this one; it has no part in equality.
+        units: the units of lengths and times, or None. Like the epoch they are for people only:
+            numbers stay numbers, and nothing is converted.
+        epoch: the date of time 0, as the text that was given, or None.
+
+    Args:
+        bodies: the bodies, of different names.
+        time: the start and the end.
+        units: `exactpt.Units`, or a mapping such as ``{"length": "mm", "time": "s"}``.
+        epoch: a date with a time and a zone by RFC 3339, such as "2026-01-01T00:00:00Z": UTC
+            without leap seconds. It needs a unit of time: "ns", "us", "ms", "s", "min", "h" or
+            "day".
 
     Raises:
         InputError: if a name repeats, the end is not after the start, or a body is not valid at
             the start: a polygon or chain is not simple, holes or parts are where none can be, or
-            rings touch of a body that does not keep its shape; or if a name or pattern of a group
-            means no body, or a group has fewer than two bodies.
+            rings touch of a body that does not keep its shape. Also if a name or pattern of a
+            group means no body, or a group has fewer than two bodies; or if the units or the
+            epoch are not as above.
         RoundingError: see `check_rounding`.
     """
 
-    __slots__ = ("bodies", "exact_end", "exact_start", "ignoring", "lost")
+    __slots__ = ("bodies", "epoch", "exact_end", "exact_start", "ignoring", "lost", "units")
 
     def __init__(
         self,
@@ -67,8 +80,11 @@ class Scene:
         time: Sequence[Rational] = (0, 1),
         *,
         ignoring: Iterable[Iterable[str]] = (),
+        units: Units | Mapping[str, str] | None = None,
+        epoch: str | None = None,
     ) -> None:
         check_rounding()
+        self.units, self.epoch = _units_and_epoch(units, epoch)
         self.lost: tuple[str, ...] = ()
         self.bodies: Sequence[Body] = tuple(bodies)
         for i, body in enumerate(self.bodies):
@@ -96,6 +112,8 @@ class Scene:
         radii: ArrayLike = 0.0,
         time: Sequence[Rational] = (0, 1),
         ignoring: Iterable[Iterable[str]] = (),
+        units: Units | Mapping[str, str] | None = None,
+        epoch: str | None = None,
     ) -> Scene:
         """Return the scene of bodies in numpy arrays, with the exact values of their doubles.
 
@@ -105,7 +123,8 @@ class Scene:
         <Body '1': point of 1 vertex>
 
         Polygons and chains are validated at once, in numpy where its bounds allow it. A body,
-        and the rationals of its vertices, is made on first access.
+        and the rationals of its vertices, is made on first access. Arrays state no errors: for
+        bodies that have some, make a `Scene` of `Body.with_errors` of these.
 
         Args:
             vertices: shape (N, 2), the vertices of all bodies.
@@ -120,6 +139,8 @@ class Scene:
             radii: for each body or for all, its radius.
             time: the start and the end of the scene.
             ignoring: groups of bodies that ignore each other, see `Scene`.
+            units: see `Scene`.
+            epoch: see `Scene`.
 
         Raises:
             InputError: if the arrays do not describe bodies, or the groups are wrong, see `Scene`.
@@ -133,7 +154,9 @@ class Scene:
         start, end = _span(time)
         for k in bodies.doubtful():
             check_valid(bodies.make(k), start, end)
-        return scene_of(bodies, start, end, _checked_groups(ignoring, bodies))
+        scene = scene_of(bodies, start, end, _checked_groups(ignoring, bodies))
+        scene.units, scene.epoch = _units_and_epoch(units, epoch)
+        return scene
 
     @classmethod
     def load(cls, path: str | Path, *, max_bytes: int | None = None) -> Scene:
@@ -334,7 +357,7 @@ class Scene:
             raise InputError(
                 f"the end t = {show(last)} is not after the start t = {show(self.exact_start)}"
             )
-        return scene_of(self.bodies, self.exact_start, last, self.ignoring)
+        return self._going_on(self.bodies, self.exact_start, last, self.ignoring)
 
     def since(self, start: Rational) -> Scene:
         """Return the scene from a later start on; an earlier start changes nothing.
@@ -349,7 +372,7 @@ class Scene:
             )
         for body in self.bodies:
             check_valid(body, first, self.exact_end)
-        return scene_of(self.bodies, first, self.exact_end, self.ignoring)
+        return self._going_on(self.bodies, first, self.exact_end, self.ignoring)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """Return the scene from a later start on, at which its bodies are known to be valid.
@@ -363,7 +386,13 @@ class Scene:
         groups = self.ignoring
         if groups and present is not self.bodies:
             groups = kept_groups(groups, names_of(self.bodies), names_of(present))
-        return scene_of(present, start, self.exact_end, groups)
+        return self._going_on(present, start, self.exact_end, groups)
+
+    def _going_on(self, bodies: Sequence[Body], start: QQ, end: QQ, ignoring: Groups) -> Scene:
+        """Return a scene that is made of this one, with its units and its epoch."""
+        scene = scene_of(bodies, start, end, ignoring)
+        scene.units, scene.epoch = self.units, self.epoch
+        return scene
 
     @property
     def vertex_count(self) -> int:
@@ -389,22 +418,22 @@ class Scene:
         return self.bodies if isinstance(self.bodies, BodyArrays) else None
 
     def __eq__(self, other: object) -> bool:
-        """Return True if the bodies, in order, the time spans, and the groups are equal."""
+        """Return True if the bodies in order, the spans, groups, units and epochs are equal."""
         if not isinstance(other, Scene):
             return NotImplemented
-        mine = (self.bodies, self.exact_start, self.exact_end, self.ignoring)
-        return mine == (other.bodies, other.exact_start, other.exact_end, other.ignoring)
+        return (
+            (self.units, self.epoch) == (other.units, other.epoch)
+            and (self.exact_start, self.exact_end) == (other.exact_start, other.exact_end)
+            and self.ignoring == other.ignoring
+            and self.bodies == other.bodies
+        )
 
     def __hash__(self) -> int:
         return hash((self.bodies, self.exact_start, self.exact_end, self.ignoring))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _valid_scene, (
-            self.bodies,
-            str(self.exact_start),
-            str(self.exact_end),
-            self.ignoring,
-        )
+        span = str(self.exact_start), str(self.exact_end)
+        return _valid_scene, (self.bodies, *span, self.ignoring, self.units, self.epoch)
 
     def draw(
         self,
@@ -488,6 +517,7 @@ def scene_of(bodies: Sequence[Body], start: QQ, end: QQ, ignoring: Groups = ()) 
     scene.bodies, scene.exact_start, scene.exact_end = bodies, start, end
     scene.ignoring = ignoring
     scene.lost = ()
+    scene.units = scene.epoch = None
     return scene
 
 
@@ -504,9 +534,18 @@ def a_scene(value: object) -> Scene:
     return value
 
 
-def _valid_scene(bodies: Sequence[Body], start: str, end: str, ignoring: Groups) -> Scene:
+def _valid_scene(
+    bodies: Sequence[Body],
+    start: str,
+    end: str,
+    ignoring: Groups,
+    units: Units | None,
+    epoch: str | None,
+) -> Scene:
     """Return the scene of a pickle, which was validated before."""
-    return scene_of(bodies, rational(start), rational(end), ignoring)
+    scene = scene_of(bodies, rational(start), rational(end), ignoring)
+    scene.units, scene.epoch = units, epoch
+    return scene
 
 
 def _checked_groups(ignoring: Iterable[Iterable[str]], bodies: Sequence[Body]) -> Groups:
@@ -531,6 +570,18 @@ def check_valid(body: Body, start: QQ, end: QQ) -> None:
         from exactpt.scene.valid import check_exactly
 
         check_exactly(body, start, end)
+
+
+def _units_and_epoch(
+    units: Units | Mapping[str, str] | None, epoch: str | None
+) -> tuple[Units | None, str | None]:
+    """Return the units and the epoch that a caller gives."""
+    if units is None and epoch is None:
+        return None, None
+    from exactpt.scene.units import read_epoch, read_units
+
+    read = read_units(units)
+    return read, read_epoch(epoch, read)
 
 
 def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:

@@ -57,12 +57,23 @@ def to_json(scene: Scene) -> dict[str, object]:
     Raises:
         InputError: if it has a number or a custom motion that files cannot hold.
     """
-    return {
+    data: dict[str, object] = {
         "exactpt": VERSION,
         "time": [_text(scene.exact_start), _text(scene.exact_end)],
-        "bodies": [_named_body_to_json(body) for body in scene.bodies],
-        **_groups_to_json(scene),
     }
+    data |= _units_to_json(scene)
+    data["bodies"] = [_named_body_to_json(body) for body in scene.bodies]
+    data |= _groups_to_json(scene)
+    return data
+
+
+def _units_to_json(scene: Scene) -> dict[str, object]:
+    data: dict[str, object] = {}
+    if scene.units is not None:
+        data["units"] = scene.units.given()
+    if scene.epoch is not None:
+        data["epoch"] = scene.epoch
+    return data
 
 
 def _groups_to_json(scene: Scene) -> dict[str, object]:
@@ -83,6 +94,7 @@ def _body_to_json(body: Body) -> dict[str, object]:
         data["closed"] = False
     if body.exact_radius:
         data["radius"] = _text(body.exact_radius)
+    data |= _errors_to_json(body)
     if body.exact_shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
@@ -96,6 +108,20 @@ def _body_to_json(body: Body) -> dict[str, object]:
         data["motion"] = _motion_to_json(body.motion)
     if body.properties:
         data["properties"] = json_properties(body)
+    return data
+
+
+def _errors_to_json(body: Body) -> dict[str, object]:
+    stated = body.exact_errors
+    data: dict[str, object] = {}
+    if stated.place:
+        data["place_error"] = _text(stated.place)
+    if stated.angle:
+        data["angle_error"] = _text(stated.angle)
+    if any(stated.shape):
+        data["shape_error"] = [_text(error) for error in stated.shape]
+    if stated.pivot is not None:
+        data["pivot"] = [_text(c) for c in stated.pivot]
     return data
 
 
@@ -180,6 +206,7 @@ def _path_to_json(path: PosePath) -> dict[str, object]:
         "error": _text(path.exact_error),
         "place_error": _text(path.exact_place_error),
         **({"assumed_angle_error": _text(assumed)} if assumed else {}),
+        **({"pivot": [_text(c) for c in path.exact_pivot]} if any(path.exact_pivot) else {}),
         "times": [_text(t) for t in path.exact_times],
         "poses": [
             {"x": _coefficients(x), "y": _coefficients(y), "angle": _coefficients(angle)}

@@ -9,13 +9,16 @@ from typing import NamedTuple, final
 
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction, rational, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.motion.outline import pieces_of
+from exactpt.motion.stated_errors import StatedErrors, pivots_of
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.scene.units import Units
 
 
 class Mark(NamedTuple):
@@ -57,9 +60,11 @@ class History:
     Attributes:
         start, end: the time span; the end is that of the scene if a contact has ended the run.
         lives: the bodies, in the order in which they came. One whose shape was changed
-            by a motion is there twice, one after the other.
+            by a motion is there twice, one after the other. So is one with an angle error, if a
+            motion changed the point about which this turns it.
         marks: what happened, in order of time.
         contact: the contact that has ended the run, or None.
+        units, epoch: those of the scene.
     """
 
     start: Fraction
@@ -67,6 +72,8 @@ class History:
     lives: tuple[Life, ...]
     marks: tuple[Mark, ...]
     contact: Contact | None
+    units: Units | None = None
+    epoch: str | None = None
 
     def __repr__(self) -> str:
         return record_in_brief(self)
@@ -79,7 +86,9 @@ class History:
     def scene(self) -> Scene:
         """Return the whole run as one scene: every motion is a piece of its body's motion.
 
-        Contacts with a response are not in it, as the bodies turned before they touched.
+        Contacts with a response are not in it, as the bodies turned before they touched. A body
+        with several motions has the largest of the errors that were stated of it or assumed of one
+        of them; an error that a path or a spin proves of its pieces is not kept then.
 
         Raises:
             InputError: if no time has passed, or a body came, went or changed its shape.
@@ -91,9 +100,11 @@ class History:
                 raise InputError(
                     f"body {shorten(body.name)} was there from t = {show(rational(since))} "
                     f"to t = {show(rational(until))} "
-                    f"only (or changed its shape then): no scene is this run"
+                    f"only (or changed its shape, or what it turns about, then): "
+                    f"no scene is this run"
                 )
-        return Scene([life.body for life in self.lives], (self.start, self.end))
+        bodies, span = [life.body for life in self.lives], (self.start, self.end)
+        return Scene(bodies, span, units=self.units, epoch=self.epoch)
 
 
 @final
@@ -103,6 +114,7 @@ class Log:
     def __init__(self, scene: Scene) -> None:
         self._start = scene.exact_start
         self._end = scene.exact_end
+        self._units, self._epoch = scene.units, scene.epoch
         self._plans = {body.name: [(scene.exact_start, body)] for body in scene.bodies}
         self._gone: list[Life] = []
         self._marks: list[Mark] = []
@@ -143,21 +155,54 @@ class Log:
     def _end_life(self, name: str, t: QQ) -> None:
         plans = self._plans.pop(name)
         if plans[0][0] < t:
-            self._gone.append(_life(plans, t))
+            self._gone += _lives(plans, t)
 
     def history(self, now: AlgebraicNumber, contact: Contact | None) -> History:
         """Return the run up to now; if that is irrational, to a rational time just before."""
         end = now.simplified().exact_canonical_interval()[0] if contact is None else self._end
-        here = [_life(plans, end) for plans in self._plans.values()]
+        here = [life for plans in self._plans.values() for life in _lives(plans, end)]
         lives = sorted([*self._gone, *here], key=lambda life: life.since)
         marks = sorted(self._marks, key=lambda mark: mark.time)
-        return History(fraction(self._start), fraction(end), tuple(lives), tuple(marks), contact)
+        span = fraction(self._start), fraction(end)
+        return History(*span, tuple(lives), tuple(marks), contact, self._units, self._epoch)
 
 
 def _is_same_shape(a: Body, b: Body) -> bool:
     return a.exact_shape is b.exact_shape or (
         a.vertices == b.vertices and a.keyframes == b.keyframes
     )
+
+
+def _lives(plans: list[tuple[QQ, Body]], until: QQ) -> Iterator[Life]:
+    """Yield the lives of a body of one shape, each up to the next one, or until a time."""
+    parts = _of_one_reference_point(plans)
+    ends = [*(part[0][0] for part in parts[1:]), until]
+    return map(_life, parts, ends)
+
+
+def _of_one_reference_point(plans: list[tuple[QQ, Body]]) -> list[list[tuple[QQ, Body]]]:
+    """Return the plans in parts, each of which has an angle error about one point, or none."""
+    parts = list[list[tuple[QQ, Body]]]()
+    has_angle_error, points = False, set[Point]()
+    for since, body in plans:
+        has_angle_error = has_angle_error or _has_angle_error(body)
+        points |= _possible_reference_points(body)
+        if not parts or (has_angle_error and len(points) > 1):
+            parts.append([])
+            has_angle_error, points = _has_angle_error(body), _possible_reference_points(body)
+        parts[-1].append((since, body))
+    return parts
+
+
+def _has_angle_error(body: Body) -> bool:
+    """Return True if an angle error is stated of a body, or assumed of its motion."""
+    return body.exact_errors.plus_assumed_of(body.motion).angle > 0
+
+
+def _possible_reference_points(body: Body) -> set[Point]:
+    """Return the points about which an angle error of a body may turn it, if there is one."""
+    points = set(pivots_of(body.motion))
+    return points if body.exact_errors.pivot is None else {*points, body.exact_errors.pivot}
 
 
 def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
@@ -171,7 +216,25 @@ def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
         for (begin, plan), end in zip(plans, ends, strict=True)
         for piece in _pieces(plan, begin, end)
     ]
-    return Life(body.with_motion(Pieces(pieces)), fraction(since), fraction(until))
+    motion = Pieces(pieces)
+    whole = body.with_errors().with_motion(motion)
+    errors = _largest_errors([plan for _, plan in plans], motion)
+    return Life(whole.exact_with_errors(errors), fraction(since), fraction(until))
+
+
+def _largest_errors(plans: list[Body], motion: Pieces) -> StatedErrors:
+    """Return errors that hold for a body in each of its plans.
+
+    Args:
+        plans: the body with each of its motions, which have one reference point at most.
+        motion: these motions together, without what is assumed of each of them.
+    """
+    errors = [plan.exact_errors.plus_assumed_of(plan.motion) for plan in plans]
+    inner, outer = (max(of_shape) for of_shape in zip(*(e.shape for e in errors), strict=True))
+    place, angle = max(e.place for e in errors), max(e.angle for e in errors)
+    given = next((e.pivot for e in errors if e.pivot is not None), None)
+    pivot = None if pivots_of(motion) else given
+    return StatedErrors(place, angle, (inner, outer), pivot)
 
 
 def _pieces(plan: Body, begin: QQ, end: QQ | None) -> Iterator[tuple[QQ | None, SimpleMotion]]:

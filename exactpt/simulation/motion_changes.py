@@ -99,7 +99,7 @@ def onward(
 
     The translation becomes linear; rotation or affine deformation continues unchanged. For a
     motion in pieces this applies to all pieces from t on. The pieces of a path, a spin or a spline
-    continue without its error.
+    continue without its error; `Bounce` states the part of it that is assumed of the body.
 
     Args:
         body: the body whose motion is replaced.
@@ -126,6 +126,17 @@ def onward(
     if not isinstance(body.motion, Pieces):
         return later[0][0]
     return Pieces([(end, motion) for motion, end in later])
+
+
+def continued(body: Body, motion: Motion) -> Body:
+    """Return a body that goes on with the motion of `onward`, and is known no better than before.
+
+    What is assumed of its old motion, such as by `PosePath.with_place_error`, becomes an error that
+    is stated of the body.
+    """
+    assumed = body.exact_errors.plus_assumed_of(body.motion)
+    errors = assumed.with_motion(body.motion, motion)
+    return body.with_errors().with_motion(motion).exact_with_errors(errors)
 
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:

@@ -17,7 +17,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, fraction, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
-from exactpt.simulation.motion_changes import GRID, onward, translation_velocity
+from exactpt.simulation.motion_changes import GRID, continued, onward, translation_velocity
 from exactpt.simulation.normals import Vector, normals_at
 
 if TYPE_CHECKING:
@@ -226,7 +226,7 @@ class Bounce:
                 f"body {shorten(body.name)}: its velocity after the bounce is beyond the range of "
                 f"doubles"
             )
-        return body.with_motion(onward(body, t, velocity, grid=self._grid))
+        return continued(body, onward(body, t, velocity, grid=self._grid))
 
 
 def _velocities(pair: ContactPoint, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
