@@ -30,6 +30,11 @@ Data: TypeAlias = Any
 
 Path: TypeAlias = tuple[str | int, ...]
 
+_MEASURES: Final = ("units", "epoch")
+"""The keys of a scene that say what its numbers count."""
+_ERRORS: Final = ("place_error", "angle_error", "shape_error", "pivot")
+"""The keys of a body that state errors of it."""
+
 
 def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.0) -> Scene:
     """Return the smallest scene found for which something still fails.
@@ -310,6 +315,13 @@ def _no_properties(data: Data) -> Iterator[Data]:
     yield result
 
 
+def _fewer_statements(data: Data) -> Iterator[Data]:
+    """Yield data without units and an epoch, then without the errors that are stated of a body."""
+    yield {key: value for key, value in data.items() if key not in _MEASURES}
+    for i, body in enumerate(data["bodies"]):
+        yield _changed(data, ("bodies", i), {k: v for k, v in body.items() if k not in _ERRORS})
+
+
 def _simpler_names(data: Data) -> Iterator[Data]:
     old = [body["name"] for body in data["bodies"]]
     new = [chr(ord("a") + i) if i < 26 else f"b{i}" for i in range(len(old))]
@@ -322,6 +334,7 @@ def _simpler_names(data: Data) -> Iterator[Data]:
 
 _STEPS: Final = (
     _no_properties,
+    _fewer_statements,
     _fewer_bodies,
     _fewer_groups,
     _shorter_span,
@@ -336,10 +349,11 @@ _STEPS: Final = (
 
 
 def _numbers(data: Data) -> Iterator[Path]:
-    """Yield the paths of all numbers: of all texts except names, properties and groups."""
+    """Yield the paths of all numbers: of all texts that are not names, groups or for people."""
+    beside = {*_MEASURES, "ignoring"}
     for path in _paths(data):
-        is_text = isinstance(_at(data, path), str)
-        if is_text and path[-1] != "name" and "properties" not in path and path[0] != "ignoring":
+        is_number = path[-1] != "name" and "properties" not in path and path[0] not in beside
+        if is_number and isinstance(_at(data, path), str):
             yield path
 
 

@@ -152,6 +152,7 @@ CALLS = {
     "Spin": lambda w: exactpt.Spin("1/7", time=(0, w.unit), error="1/1000"),
     "Surroundings": lambda w: exactpt.clearance(w.scene, w.mover),
     "Translation": lambda w: w.motion,
+    "Units": lambda _: exactpt.Units(length="mm", time="s"),
     "Velocity": lambda w: exactpt.Velocity(w.unit, 1, since=w.unit),
     "certify": lambda w: exactpt.certify(w.scene),
     "union": lambda w: exactpt.union([w.standing], name="one"),

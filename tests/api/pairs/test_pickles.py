@@ -94,6 +94,7 @@ ANSWERS = {
     "Simulation": lambda: Simulation(SCENE),
     "Spin": lambda: Spin(1, (1, 2), time=(0, "1/100")),
     "Translation": lambda: Translation([0, 1], "1/3"),
+    "Units": lambda: exactpt.Units(length="mm"),
     "Velocity": lambda: exactpt.Velocity(1, 2),
     "Options": lambda: exactpt.batch.Options(every=True),
     "Summary": lambda: exactpt.batch.Summary(2, 1, "2: x"),

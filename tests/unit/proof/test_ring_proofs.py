@@ -95,8 +95,8 @@ def test_a_scene_in_which_a_hole_is_nowhere():
     scene = room(ball(speed=0))
     lines = lines_of(scene)
     for hole in ([(20, 1), (30, 1), (30, 11), (20, 11)], [(-1, 1), (11, 1), (11, 11), (1, 11)]):
-        bodies = (Body("frame", FRAME, holes=[hole]), scene.bodies[1])
-        forged = scene_of(bodies, scene.exact_start, scene.exact_end)  # it does not check them
+        frame = Body("frame", FRAME, holes=[hole])
+        forged = scene_of((frame, scene.bodies[1]), scene.exact_start, scene.exact_end)
         reported = verdict(
             forged, [*header(scene_bytes(forged), forged.exact_start, forged.exact_end), *lines[3:]]
         )
