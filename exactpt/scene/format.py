@@ -248,9 +248,10 @@ def _ring(data: Json, where: str, of: str, *, closed: bool = True) -> list[Posit
     rows = a_list(data, where)
     if not rows:
         raise InputError(f"{where}: at least one vertex is needed")
-    if closed and len(rows) > 3 and rows[0] == rows[-1]:
+    vertices = [_vertex(row, f"{of}: vertex {i}") for i, row in enumerate(rows)]
+    if closed and len(rows) > 3 and vertices[0] == vertices[-1]:  # also if it is written otherwise
         raise InputError(f"{where}: the last repeats the first: {shown(rows[-1])}")
-    return [_vertex(row, f"{of}: vertex {i}") for i, row in enumerate(rows)]
+    return vertices
 
 
 def _radius(data: Json, where: str) -> QQ:

@@ -268,6 +268,8 @@ WRONG = [
     ((b, BOX, "vertices", 2), ["1", "-1"], ["'box'", "not a simple polygon", "edge"]),
     ((b, BOX, "vertices", 1), ["0", "0"], ["'box'", "vertex 0", "(0, 0)"]),
     ((b, BOX, "vertices", 3), ["0", "0"], ["'box'", "vertices", "the last repeats the first"]),
+    ((b, BOX, "vertices", 3), [0, "-0"], ["'box'", "vertices", "the last repeats the first"]),
+    ((b, BOX, "vertices", 3), {"x": [0]}, ["'box'", "vertices", "the last repeats the first"]),
     ((b, BOX, "vertices", 3), ["1", "0"], ["'box'", "not a simple polygon"]),
     ((b, BOX, "vertices"), [[0, 0], [1, 1], [2, 2]], ["'box'", "not a simple polygon"]),
     ((b, BOX, "vertices"), [[0, 0], [0, 0]], ["'box'", "vertex 0", "(0, 0)"]),
