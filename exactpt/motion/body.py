@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
 _NO_HOLES: Final = ()
+_NO_ERROR: Final = 0
 _SAME_SHAPE: Final = (0, 0)
 
 
@@ -133,8 +134,8 @@ class Body:
         holes: Iterable[Outline] = _NO_HOLES,
         parts: Iterable[PartLike] | None = None,
         radius: Rational = 0,
-        place_error: Rational = 0,
-        angle_error: Rational = 0,
+        place_error: Rational = _NO_ERROR,
+        angle_error: Rational = _NO_ERROR,
         shape_error: Sequence[Rational] = _SAME_SHAPE,
         pivot: Sequence[Rational] | None = None,
         properties: Mapping[str, object] | None = None,
@@ -160,7 +161,13 @@ class Body:
                 self._read_rings(vertices, keyframes, listed("holes", holes), parts)
             self._course = Course(self.exact_shape, motion)
             self.exact_errors = NONE_STATED
-            if _is_any_stated(place_error, angle_error, shape_error, pivot):
+            is_unstated = (  # by identity, which takes no time: most bodies state nothing
+                place_error is _NO_ERROR
+                and angle_error is _NO_ERROR
+                and shape_error is _SAME_SHAPE
+                and pivot is None
+            )
+            if not is_unstated:
                 self.exact_errors = read_stated_errors(
                     motion, place_error, angle_error, shape_error, pivot
                 )
@@ -302,8 +309,8 @@ class Body:
     def with_errors(
         self,
         *,
-        place_error: Rational = 0,
-        angle_error: Rational = 0,
+        place_error: Rational = _NO_ERROR,
+        angle_error: Rational = _NO_ERROR,
         shape_error: Sequence[Rational] = _SAME_SHAPE,
         pivot: Sequence[Rational] | None = None,
     ) -> Body:
@@ -568,15 +575,6 @@ def _read_radius(name: str, radius: Rational) -> QQ:
     if exact < 0:
         raise InputError(f"body {shorten(name)}: radius: it is negative: {show(exact)}")
     return exact
-
-
-def _is_any_stated(
-    place_error: Rational, angle_error: Rational, shape_error: object, pivot: object
-) -> bool:
-    """Return True if an error differs from its default: most bodies state none."""
-    sizes = (place_error, angle_error)
-    are_plain_zeros = all(type(size) in _PLAIN and size == 0 for size in sizes)
-    return pivot is not None or shape_error is not _SAME_SHAPE or not are_plain_zeros
 
 
 def _check_sorts(name: str, *given: object) -> None:
