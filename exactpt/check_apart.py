@@ -20,9 +20,9 @@ if __name__ == "__main__" and not sys.flags.isolated:
 import hashlib
 import re
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import chain, pairwise
+from itertools import chain, combinations, pairwise
 from math import comb, isqrt, lcm
 from pathlib import Path
 from typing import Any
@@ -42,6 +42,7 @@ from exactpt.proof_scene import (
     Track,
     V,
     Whole,
+    about,
     budget,
     check_json,
     dot_of,
@@ -201,11 +202,21 @@ def require_passage(tracks: Sequence[Track], s: Fraction, t: Fraction) -> None:
 
 
 class Proved(str):
-    """The statement: apart up to ``low``, in contact by ``until``; of the ``whole`` scene?"""
+    """The statement, in words.
+
+    Attributes:
+        low: the time up to which the pairs of the certificate are apart.
+        until: the time by which there is a contact, or ``low`` if none is claimed.
+        kind: "no contact", "first contact" or "contact at the start", of two bodies.
+        meets: whether there is a contact, without a distance.
+        is_of_all: whether it is proved of all pairs that count in the scene, from its start.
+        whole: whether it is so up to the end of the scene, or to a contact.
+    """
 
     low: Fraction
     until: Fraction
-    meets = is_of_all = False  # whether there is a contact, without a distance; of all pairs
+    kind: str
+    meets = is_of_all = False
     whole: bool
 
 
@@ -253,6 +264,29 @@ class Checker:
         if not self.named:
             return len({self.group[i] for i in bodies}) > 1
         return any(self.group[i] != self.group[j] for i, j in self.named if {i, j} <= bodies)
+
+    def has_all_that_count(self) -> bool:
+        """Return True if all pairs that count in the scene count in the certificate.
+
+        The certificate may have more: bodies that the scene ignores, and are apart nevertheless.
+        """
+        everybody = range(len(self.group))
+        left_out: Iterable[Dart]
+        if not self.selection:
+            return True
+        if self.named:  # no other pairs count in the certificate
+            left_out = (pair for pair in combinations(everybody, 2) if not self.is_named(*pair))
+        else:  # all pairs do, but for those of one group of the certificate
+            of_group: dict[int, list[int]] = {}
+            for i in everybody:
+                of_group.setdefault(self.group[i], []).append(i)
+            left_out = chain.from_iterable(combinations(some, 2) for some in of_group.values())
+        return not any(self.scene.do_count(i, j) for i, j in left_out)
+
+    def is_named(self, i: int, j: int) -> bool:
+        """Return True if a pair is among the named ones, and not of one group."""
+        spend(10)
+        return (i, j) in self.named and self.group[i] != self.group[j]
 
     def check_apart(self) -> None:
         """See that no two items of bodies that count have a common point from start to end."""
@@ -357,11 +391,13 @@ class Checker:
         high, how, bodies = self.check_contact(kind, row) if found else (low, "", [])
         if found and high == a:
             require(low == a and not self.nodes, "there is a contact at the start")
+            shown = "contact at the start"
             text = f"two bodies {what or 'share a point'} at the start t = {written(a)}: {how}"
         else:
             require(not found or low < high, "a contact before the end of the span")
             self.check_outside()
             self.check_apart()
+            shown = "first contact" if found else "no contact"
             event = f"time {what}" if what else "contact"
             text = f"first {event} of two bodies in ({written(low)}, {written(high)}]: {how}"
         if not found:
@@ -374,9 +410,12 @@ class Checker:
         chosen = sorted({*bodies, *self.chosen})
         said = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in chosen)
         names = f" ({said})" if said else ""
-        proved = Proved(f"{accepted}{text}{self.selection}{names}")
+        of_bodies = about(is_modelled=self.scene.is_modelled)
+        proved = Proved(f"{accepted}{of_bodies}{text}{self.selection}{names}")
         proved.low, proved.until, proved.meets = low, high, kind != "none" and not self.distance
-        proved.is_of_all = not self.selection and a == first
+        proved.kind = shown
+        is_of_scene = not bodies or self.scene.do_count(*bodies)
+        proved.is_of_all = is_of_scene and self.has_all_that_count() and a == first
         proved.whole = not rest and proved.is_of_all
         return proved
 
@@ -415,8 +454,10 @@ def check_rows(accepted: str, scenes: list[str], rows: list[str]) -> Proved:
     need(ends == ["", ""], "or the certificate: a last line without an end:", ends)
     need(len(scenes) == len(rows), "the numbers of scenes and of rows differ:", len(rows))
     found = dict.fromkeys(("no contact", "first contact", "contact at the start", "open"), 0)
+    is_modelled = False  # in one of the scenes
     for k, (scene, row) in enumerate(zip(scenes, rows, strict=True), 1):
         made, kind = Scene(scene, are_records_verified=False), "open"
+        is_modelled |= made.is_modelled
         if row != "open":
             lines_of_row = row.replace(";", "\n")
             lines = read(f"exactpt-apart 1\nscene sha256 -\n{lines_of_row}".encode(), FORMAT)
@@ -427,12 +468,11 @@ def check_rows(accepted: str, scenes: list[str], rows: list[str]) -> Proved:
                 require(proved.whole, f"only a part is proved: {proved}")
             except Rejected as why:
                 raise Rejected(f"row {k}: {why}") from None
-            start = {"no": "no contact", "first": "first contact"}
-            kind = start.get(proved.split()[0], "contact at the start")
+            kind = proved.kind
         found[kind] += 1
     said = ", ".join(f"{kind} in {n}" for kind, n in found.items() if n)
     text = f"{len(rows)} rows, each of two or more bodies in the whole span: {said}"
-    proved = Proved(f"{accepted}{text}")
+    proved = Proved(f"{accepted}{about(is_modelled=is_modelled)}{text}")
     proved.until, proved.whole = Fraction(0), not found["open"]
     return proved
 

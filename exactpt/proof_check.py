@@ -46,6 +46,7 @@ from exactpt.proof_scene import (
     Time,
     Track,
     V,
+    about,
     are_same,
     between,
     budget,
@@ -80,6 +81,7 @@ Face = tuple[Dart, ...]
 class Proved(str):
     """The proved statement, in words."""
 
+    statement: str  # the words of it that follow the hash, and the word that bodies are modelled
     until: Fraction  # the end of the span of the proof
     whole: bool  # whether the statement covers the whole span of the scene
     left: int  # the work that was not needed
@@ -659,14 +661,20 @@ def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Prov
                 )
             scene = Scene(text)
             need(not any(body.radius for body in scene.bodies), "a radius: no proof is possible")
+            require(
+                not scene.groups,
+                "a proof by a tiling counts all pairs, this scene ignores some",
+            )
             checker = Checker(scene)
             proved = checker.check_rows(rows[2:])
         except UnicodeDecodeError:
             raise NoProofError("a file is not UTF-8") from None
         except Rejected as verdict:
-            raise Rejected(f"rejected: line {checker.line if checker else 0}: {verdict}") from None
-        proved.left = spent.left
-        return proved.within(f"accepted: {digest[:16]} {proved}")
+            where = f"line {checker.line}: " if checker else ""
+            raise Rejected(f"rejected: {where}{verdict}") from None
+        proved.left, proved.statement = spent.left, str(proved)
+        of_bodies = about(is_modelled=scene.is_modelled)
+        return proved.within(f"accepted: {digest[:16]} {of_bodies}{proved}")
 
 
 # ---- What is wanted.
@@ -766,6 +774,7 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
         raise NoProofError(f"{str(folder)!a} {reason}")
     require(numbers[-1] == len(numbers), "rejected: the numbers of the parts have a gap")
     seams, last, start, chain = list[str](), None, Fraction(0), ["exactpt-chain 1"]
+    is_modelled = False  # in one of the parts
     for k in numbers:
         try:
             scene, proof = (file_bytes(folder / f"{k}.{e}") for e in ("scene.json", "proof"))
@@ -774,6 +783,7 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
             raise Rejected(f"{verdict} (part {k})") from None
         work, here = work and proved.left, proved.scene
         start = here.start if last is None else start
+        is_modelled |= here.is_modelled
         seams += [] if last is None else seam(last, proved, k)
         a, b, before = (hashlib.sha256(x).hexdigest() for x in (scene, proof, chain[-1].encode()))
         chain.append(f"{k} {a} {b} {written(here.start)} {written(proved.until)} {before}")
@@ -783,10 +793,11 @@ def check_chain(folder: Path, work: int | None = None) -> Proved:
         same = file_bytes(manifest) == ("\n".join(chain) + "\n").encode()
         require(same, "rejected: the parts are not those of run.chain")
     assert last is not None  # noqa: S101
-    digest, said = hashlib.sha256(chain[-1].encode()).hexdigest()[:16], last.split(" ", 2)[2]
+    digest, said = hashlib.sha256(chain[-1].encode()).hexdigest()[:16], last.statement
     if last.time is None:
         said = said.replace(f"[{written(last.scene.start)}, ", f"[{written(start)}, ", 1)
-    text = f"accepted: {digest} along {len(numbers)} parts from t = {written(start)}: {said}"
+    along = f"along {len(numbers)} parts from t = {written(start)}"
+    text = f"accepted: {digest} {along}: {about(is_modelled=is_modelled)}{said}"
     return last.within("; ".join([text, *seams]))
 
 

@@ -11,6 +11,7 @@ states, and whatever is not understood is refused.
 import json
 import re
 from bisect import bisect_right
+from calendar import monthrange
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -421,9 +422,9 @@ Whole = tuple[int, int, int]
 Rows = list[Whole]  # of a vertex at (x / z, y / z): coefficients of x, y and z, by powers of t
 Entry = TypeVar("Entry", int, Poly)
 Triple = tuple[Entry, Entry, Entry]
-Turn = tuple[Poly, Point, Json]  # the half turn, the orientation, and the rest
+# The half turn, the orientation, and the pivot with the translation.
+Turn = tuple[Poly, Point, tuple[Point, Poly, Poly]]
 ONE, ZERO = Poly([Fraction(1)]), Poly()
-Poses = tuple[Point, list[Fraction], list[list[Poly]]]  # of a path: its errors, times and poses
 
 
 def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
@@ -530,7 +531,10 @@ MAX_DIGITS = 10_000  # of one in a proof
 MAX_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
 
 
-BODY_KEYS = ["motion", "closed", "holes", "radius", "properties", "vertices", "keyframes", "parts"]
+BODY_KEYS = [
+    *("motion", "closed", "holes", "radius", "properties", "vertices", "keyframes", "parts"),
+    *("place_error", "angle_error", "shape_error", "pivot"),
+]
 MOTION_KEYS = {  # required, and optional
     "": ([], ["x", "y"]),
     "affine": (["matrix"], ["x", "y"]),
@@ -617,6 +621,7 @@ class Motion:
 
     def __init__(self, data: Json, of_shape: int) -> None:
         self.rigid: Turn | None = None
+        self.pivot: Point | None = None  # of a rigid motion
         kind = next(iter({"rigid", "affine"} & data.keys()), "") if isinstance(data, dict) else ""
         given = keys(keys(data, [kind])[kind] if kind else data, *MOTION_KEYS[kind])
         x, y = polynomial(given.get("x", [])), polynomial(given.get("y", []))
@@ -631,8 +636,9 @@ class Motion:
         if kind == "rigid":
             c, s = point(given.get("orientation", ["1", "0"]))
             need(c * c + s * s == 1, "an orientation that is no unit vector:", data)
-            p, q = (Poly([k]) for k in point(given.get("pivot", ["0", "0"])))
-            self.rigid = h, (c, s), (p, q, x, y)
+            self.pivot = point(given.get("pivot", ["0", "0"]))
+            p, q = (Poly([k]) for k in self.pivot)
+            self.rigid = h, (c, s), (self.pivot, x, y)
             # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
             w, cosine, sine = ONE + h * h, ONE - h * h, h + h
             a, b = cosine * Poly([c]) - sine * Poly([s]), sine * Poly([c]) + cosine * Poly([s])
@@ -699,6 +705,7 @@ class Body:
         self.first, self.size = first, len(self.frames[0][1] if self.frames else self.shape)
         need(self.size, "no vertices:", self.name)
         self.read_motion(body.get("motion", {}), are_records_verified=are_records_verified)
+        self.read_errors(body)
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         self.breaks = sorted({*self.ends, *dict(self.frames)})
         self.parts: list[list[range]] = []
@@ -715,6 +722,7 @@ class Body:
         """Read the motions, which follow one upon the other at the times ``ends``."""
         of_shape = 1 if self.frames else max(map(len, self.shape)) - 1
         self.ends: list[Fraction] = []
+        self.path: PathRecord | None = None
         if not isinstance(data, dict) or "pieces" not in data:
             self.motions = [Motion(data, of_shape)]
             return
@@ -731,13 +739,40 @@ class Body:
             if [c * v[6] for c in u] != [c * u[6] for c in v]:
                 same = are_same(self.places(t, before), self.places(t, after))
                 need(same, f"{self.name!a:.200} jumps at t = {written(t):.200}")
-        self.spin = spin_of(given["spin"]) if "spin" in given else None
-        self.path = path_of(given["path"]) if "path" in given else None
-        self.spline = spline_of(given["spline"]) if "spline" in given else None
-        if are_records_verified:
-            right = not self.spin or turns_by(self.ends, self.motions, self.spin)
-            right = right and (not self.path or follows(self.ends, self.motions, self.path))
-            need(right, "not such a path or spin:", data)
+        if "spin" in given:
+            spin = spin_of(given["spin"], self.motions)
+            right = not are_records_verified or turns_by(self.ends, self.motions, spin)
+            need(right, "not such a spin:", data)
+        if "path" in given:
+            self.path = path_of(given["path"])
+            right = not are_records_verified or follows(self.ends, self.motions, self.path)
+            need(right, "not such a path:", data)
+        if "spline" in given:
+            check_spline(given["spline"])
+
+    def read_errors(self, body: Json) -> None:
+        """Read by how much the true body may differ from the modelled one, which is the one here.
+
+        An error of the angle is a turn about a reference point: the one about which the motion
+        turns the body, or else the "pivot" of the body.
+        """
+        place, angle = (error_of(body.get(k, "0"), k) for k in ("place_error", "angle_error"))
+        both = entries(body.get("shape_error", ["0", "0"]), 2)
+        shape = [error_of(error, "shape_error") for error in both]
+        self.is_modelled = any([place, angle, *shape])
+        has_pivot = "pivot" in body
+        if has_pivot:
+            point(body["pivot"])
+        if not angle:
+            need(not has_pivot, "a pivot without an angle_error:", self.name)
+            return
+        turned_about = {motion.pivot for motion in self.motions if motion.pivot}
+        if self.path:
+            turned_about = {self.path.pivot}
+        several = " and ".join(f"({written(x)}, {written(y)})" for x, y in sorted(turned_about))
+        need(len(turned_about) < 2, f"an angle_error, and turns about {several:.200}:", self.name)
+        need(has_pivot or turned_about, "an angle_error without a pivot:", self.name)
+        need(not (has_pivot and turned_about), "two pivots, of the body and its motion:", self.name)
 
     def rows(self, i: int, t: Fraction) -> Rows:
         """Return the rows of vertex i before motions; off frames it is at rest."""
@@ -829,35 +864,63 @@ def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     return path
 
 
-def spin_of(data: Json) -> Point:
-    """Return the rate and the error of a spin."""
-    omega, error = (number(keys(data, ["omega", "error"])[k]) for k in ("omega", "error"))
-    need(error > 0, "a spin's error:", data)
-    return omega, error
-
-
-def spline_of(data: Json) -> Fraction:
-    """Return the error of a spline, which is assumed: pieces are taken as they are."""
-    error = number(keys(data, ["error"])["error"])
-    need(error >= 0, "a spline's error:", data)
+def error_of(data: Json, key: str) -> Fraction:
+    """Return an error, the value of a key: a number that is not negative."""
+    error = number(data)
+    need(error >= 0, f"a negative {key}:", data)
     return error
 
 
-def path_of(data: Json) -> Poses:
-    """Return the errors, the times and the poses of a path.
+def spin_of(data: Json, motions: Sequence["Motion"]) -> Point:
+    """Return the rate and the error of a spin; a pivot that it names is that of all motions."""
+    spin = keys(data, ["omega", "error"], ["pivot"])
+    omega, error = number(spin["omega"]), number(spin["error"])
+    need(error > 0, "a spin's error:", data)
+    if "pivot" in spin:
+        pivot = point(spin["pivot"])
+        need(all(motion.pivot == pivot for motion in motions), "a spin about another pivot:", data)
+    return omega, error
 
-    Of its error of the angle, a part is assumed; the pieces are to be within the rest.
+
+def check_spline(data: Json) -> None:
+    """Check the error of a spline, which is assumed: pieces are taken as they are."""
+    error_of(keys(data, ["error"])["error"], "error")
+
+
+@dataclass(frozen=True)
+class PathRecord:
+    """The record of a path: poses, which the pieces of a motion follow within errors.
+
+    Attributes:
+        pivot: the point of the rest frame about which the poses turn.
+        angle_error: the verified part of the error of the angle; the rest is assumed.
+        place_error: the error of the translation.
+        times: where poses begin and end, one more than poses.
+        poses: x, y and the angle, polynomials of the time since the pose began.
     """
-    path = keys(data, ["error", "place_error", "times", "poses"], ["assumed_angle_error"])
-    assumed = number(path.get("assumed_angle_error", Bare("0")))
-    error, off = number(path["error"]) - assumed, number(path["place_error"])
-    need(assumed >= 0, "an assumed error of a path:", data)
+
+    pivot: Point
+    angle_error: Fraction
+    place_error: Fraction
+    times: list[Fraction]
+    poses: list[list[Poly]]
+
+
+def path_of(data: Json) -> PathRecord:
+    """Return the record of a path."""
+    required = ["error", "place_error", "times", "poses"]
+    path = keys(data, required, ["assumed_angle_error", "pivot"])
+    assumed = error_of(path.get("assumed_angle_error", "0"), "assumed_angle_error")
+    error = number(path["error"]) - assumed
+    need(error > 0, "an error of the angle that is not above the assumed one:", data)
     times = [number(t) for t in entries(path["times"])]
     rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
     poses = [[polynomial(row[k]) for k in ("x", "y", "angle")] for row in rows]
-    right = error > 0 and off >= 0 and len(times) == len(poses) + 1 > 1
-    need(right and all(s < t for s, t in pairwise(times)), "not such a path:", data)
-    return (error, off), times, poses
+    need(len(times) == len(poses) + 1 > 1, "not one pose for each two times:", data)
+    need(all(s < t for s, t in pairwise(times)), "the times of a path do not increase:", data)
+    pivot = point(path.get("pivot", ["0", "0"]))
+    off = error_of(path["place_error"], "place_error")
+    return PathRecord(pivot, error, off, times, poses)
 
 
 # ---- A spin: pieces that turn by the angle omega t, but for an error. Of the angle of a piece, p +
@@ -915,9 +978,9 @@ def bits_for(error: Fraction, angle: Fraction) -> int:
 # max |E| (1 + 2 max |h| max |h'|), since |w'| <= 2 |h h'|.
 
 
-def follows(ends: Sequence[Fraction], motions: Sequence[Motion], path: Poses) -> bool:
+def follows(ends: Sequence[Fraction], motions: Sequence[Motion], path: PathRecord) -> bool:
     """Return True if motions are seen to follow a path within its errors."""
-    errors, times, poses = path
+    times, poses = path.times, path.poses
     turns = [motion.rigid for motion in motions if motion.rigid]
     if not len(turns) == len(motions) > 2 or (ends[0], ends[-1]) != (times[0], times[-1]):
         return False
@@ -927,15 +990,19 @@ def follows(ends: Sequence[Fraction], motions: Sequence[Motion], path: Poses) ->
     for turn, span in zip(turns, pairwise([ends[0], *ends, ends[-1]]), strict=True):
         k = min(bisect_right(times, span[0]), len(poses)) - 1
         pose = [f.along(*(t - times[k] for t in span)) for f in poses[k]]
-        if span[1] > times[k + 1] or not is_near(turn, span, pose, *errors):
+        if span[1] > times[k + 1] or not is_near(turn, span, pose, path):
             return False
     return True
 
 
-def is_near(turn: Turn, span: Bounds, pose: Sequence[Poly], error: Fraction, off: Fraction) -> bool:
-    """Return True if one piece is shown to be near a pose of the part s of its span."""
-    (h, (c, s), (p, q, x, y)), all_of_it = turn, (Fraction(0), Fraction(1))
-    if p or q or (span[0] == span[1] and degree(h, x, y) > 0):
+def is_near(turn: Turn, span: Bounds, pose: Sequence[Poly], path: PathRecord) -> bool:
+    """Return True if one piece is shown to be near a pose of the part s of its span.
+
+    The pieces and the poses turn about one point, so the translations can be compared.
+    """
+    (h, (c, s), (pivot, x, y)), all_of_it = turn, (Fraction(0), Fraction(1))
+    error, off = path.angle_error, path.place_error
+    if pivot != path.pivot or (span[0] == span[1] and degree(h, x, y) > 0):
         return False
     dx, dy, h = x.along(*span) - pose[0], y.along(*span) - pose[1], h.along(*span)
     u, angle = h.value(Fraction(0)), pose[2].value(Fraction(0))
@@ -1013,8 +1080,75 @@ def read_json(text: str) -> Json:
     return json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
 
 
+# ---- Beside the bodies: those that ignore each other, and what the numbers mean to people.
+
+UNITS_OF_DATES = ("ns", "us", "ms", "s", "min", "h", "day")
+MAX_UNIT = 32  # characters
+CONTROLS = re.compile("[\0-\x1f\x7f-\x9f\u2028\u2029]")  # and line breaks
+EPOCH = re.compile(
+    r"(?P<year>\d{4})-(?P<month>\d\d)-(?P<day>\d\d)[Tt ]"
+    r"([01]\d|2[0-3]):[0-5]\d:[0-5]\d(\.\d{1,30})?"
+    r"([Zz]|[+-]([01]\d|2[0-3]):[0-5]\d)",
+    re.ASCII,
+)
+
+
+def is_text(data: Json) -> bool:
+    """Return True for a text of JSON, and not for a number."""
+    return isinstance(data, str) and not isinstance(data, Bare)
+
+
+def group_of(data: Json, number_of: dict[str, int]) -> frozenset[int]:
+    """Return the numbers of the bodies of a group, which ignore each other.
+
+    A text that is the name of a body is that body. Otherwise it ends in a star, and stands for all
+    bodies whose names begin with what is before the star.
+    """
+    group = set[int]()
+    for text in entries(data):
+        need(is_text(text), "ignoring: not a name:", text)
+        if text in number_of:
+            group.add(number_of[text])
+            continue
+        need(text.endswith("*"), "ignoring: no such body:", text)
+        beginning = text[:-1]
+        spend(len(number_of))
+        matching = [i for name, i in number_of.items() if name.startswith(beginning)]
+        need(matching, "ignoring: no body matches", text)
+        group.update(matching)
+    need(len(group) > 1, "ignoring: a group of fewer than two bodies:", data)
+    return frozenset(group)
+
+
+def units_of(data: Json) -> dict[str, str]:
+    """Return the units of length and time, or of one of both."""
+    units: dict[str, str] = keys(data, optional=["length", "time"])
+    need(units, "units: neither a length nor a time:", data)
+    for unit in units.values():
+        need(is_text(unit) and 0 < len(unit) <= MAX_UNIT, "units: not a short text:", unit)
+        check_json(unit, 0)
+        need(not CONTROLS.search(unit), "units: a line break or a control character:", unit)
+    return units
+
+
+def check_epoch(data: Json, units: dict[str, str]) -> None:
+    """Check the date of time 0, which needs a unit of time that can be added to a date."""
+    match = EPOCH.fullmatch(data) if is_text(data) else None
+    need(match, "epoch: not a date and time with a zone:", data)
+    year, month, day = (
+        (int(match[part]) for part in ("year", "month", "day")) if match else (0,) * 3
+    )
+    need(year > 0 and 1 <= month <= 12, "epoch: no such date:", data)
+    need(1 <= day <= monthrange(year, month)[1], "epoch: no such date:", data)
+    need(
+        units.get("time") in UNITS_OF_DATES, "epoch: it needs units with a time in", UNITS_OF_DATES
+    )
+
+
 class Scene:
     """All bodies; their vertices are numbered through.
+
+    ``groups`` are the numbers of bodies that ignore each other.
 
     A proof states that the pieces of a motion follow the record of a spin or a path beside them,
     so that record is verified. A certificate is about the pieces alone.
@@ -1029,7 +1163,7 @@ class Scene:
 
     def read(self, data: Json, *, are_records_verified: bool) -> None:
         """Read all of it."""
-        top = keys(data, ["exactpt", "time", "bodies"])
+        top = keys(data, ["exactpt", "time", "bodies"], ["ignoring", "units", "epoch"])
         version = top["exactpt"]
         need(version == "1" and isinstance(version, Bare), "not of format 1:", version)
         self.start, self.end = point(top["time"])
@@ -1040,7 +1174,24 @@ class Scene:
             body = Body(entry, first, self.start, are_records_verified=are_records_verified)
             self.bodies.append(body)
             self.body_of += [i] * self.bodies[-1].size
-        need(len({body.name for body in self.bodies}) == len(self.bodies), "a name is there twice")
+        number_of = {body.name: i for i, body in enumerate(self.bodies)}
+        need(len(number_of) == len(self.bodies), "a name is there twice")
+        self.groups = [group_of(names, number_of) for names in entries(top.get("ignoring", []))]
+        self.groups_of = [set[int]() for _ in self.bodies]  # of each body, the numbers of them
+        for k, group in enumerate(self.groups):
+            for i in group:
+                self.groups_of[i].add(k)
+        units = units_of(top["units"]) if "units" in top else {}
+        if "epoch" in top:
+            check_epoch(top["epoch"], units)
+
+        # A true body may differ from the one that is read here, the modelled one.
+        self.is_modelled = any(body.is_modelled for body in self.bodies)
+
+    def do_count(self, i: int, j: int) -> bool:
+        """Return True if two bodies count as a pair: no group has both."""
+        spend(20)
+        return self.groups_of[i].isdisjoint(self.groups_of[j])
 
     def of(self, v: int) -> Body:
         """Return the body of a vertex."""
@@ -1145,6 +1296,11 @@ def read(proof: bytes, file_format: Format) -> list[tuple[int, list[str]]]:
     if not re.fullmatch(file_format.order, " ".join(row[0] for _, row in rows)):
         raise NoProofError("the file is no proof, or the order of its lines is another one")
     return rows
+
+
+def about(*, is_modelled: bool) -> str:
+    """Return the words before a statement that is about the modelled bodies, not the true ones."""
+    return "modelled bodies: " if is_modelled else ""
 
 
 def file_bytes(path: Path) -> bytes:

@@ -171,7 +171,8 @@ class Checker {
     result.until = high;
     result.low = text_.end;
     result.has_contact = has_contact && text_.distance == 0;
-    result.is_of_all = selection_.empty() && !is_later;
+    const bool is_of_scene = !has_contact || scene_.groups().do_count(met_.first, met_.second);
+    result.is_of_all = is_of_scene && !is_later && has_all_that_count();
     result.is_whole = result.is_of_all && rest.empty();
     return result;
   }
@@ -208,6 +209,30 @@ class Checker {
       });
     return std::any_of(bodies.begin(), bodies.end(),
                        [&](int i) { return group(i) != group(*bodies.begin()); });
+  }
+
+  bool counts(int i, int j) const {
+    const auto group = [&](int k) { return group_[static_cast<std::size_t>(k)]; };
+    return group(i) != group(j) && (pairs_.empty() || pairs_.count({std::min(i, j), std::max(i, j)}) > 0);
+  }
+
+  // Whether each pair that counts in the scene counts here. More may do: bodies that the scene
+  // ignores, and that are apart nevertheless.
+  bool has_all_that_count() const {
+    if (selection_.empty()) return true;
+    const int n = static_cast<int>(group_.size());
+    if (!pairs_.empty()) {
+      for (int i = 0; i < n; ++i)
+        for (int j = i + 1; j < n; ++j)
+          if (!counts(i, j) && scene_.groups().do_count(i, j)) return false;
+      return true;
+    }
+    // No pair is left out but those of one group, each of which is in one line.
+    for (const ChoiceText& choice : text_.choices)
+      for (const int i : choice.bodies)
+        for (const int j : choice.bodies)
+          if (i != j && scene_.groups().do_count(i, j)) return false;
+    return true;
   }
 
   const Item& item(int i) const { return items_[static_cast<std::size_t>(i)]; }
@@ -393,6 +418,7 @@ class Checker {
     }
     require(i != j && count({i, j}), "bodies that do not count as a pair", line);
     named_in_words_.insert({i, j});
+    met_ = {i, j};
     return t;
   }
 
@@ -402,6 +428,7 @@ class Checker {
   std::vector<int> group_;
   std::set<std::pair<int, int>> pairs_;
   std::set<int> grouped_, named_in_words_;
+  std::pair<int, int> met_;  // the bodies of the contact
   std::string selection_;
   std::unordered_map<int, int> sides_;  // of vertices, at the node in hand
   std::map<Rational, std::pair<Plane, Plane>> planes_;  // of radii, likewise

@@ -68,6 +68,7 @@ void Chain::add(Part part) {
   lines_.push_back(std::to_string(lines_.size()) + " " + part.scene_hash + " " + part.proof_hash +
                    " " + part.start.get_str() + " " + part.end.get_str() + " " +
                    sha256(lines_.back()));
+  is_modelled_ = is_modelled_ || part.scene.is_modelled();
   last_.clear();
   last_.push_back(std::move(part));
 }
@@ -106,7 +107,7 @@ std::string Chain::conclusion() const {
   if (!last.has_contact)
     said = begin + start_.get_str() + said.substr(begin.size() + last.start.get_str().size());
   said = sha256(lines_.back()).substr(0, 16) + " along " + std::to_string(size_) +
-         " parts from t = " + start_.get_str() + ": " + said;
+         " parts from t = " + start_.get_str() + ": " + about(is_modelled_) + said;
   for (const std::string& seam : seams_) said += "; " + seam;
   return said;
 }

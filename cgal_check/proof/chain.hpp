@@ -41,6 +41,7 @@ class Chain {
   std::vector<Part> last_;          // none or one
   std::vector<std::string> lines_;  // of run.chain
   std::vector<std::string> seams_;  // at which bodies come or go
+  bool is_modelled_ = false;        // in one of the parts
   Rational start_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "faults.hpp"
 #include "simple.hpp"
@@ -209,9 +210,45 @@ std::vector<Pose> poses(const Json& path) {
   return result;
 }
 
-Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_verified) {
+// An error: a number that is not negative.
+Rational error_of(const Json* json) {
+  const Rational error = exact_number(json);
+  if (sign(error) < 0) throw NoProof("the scene has a negative error: " + json->text);
+  return error;
+}
+
+PathRecord path_of(const Json& json) {
+  allow_keys(json, {"error", "place_error", "assumed_angle_error", "times", "poses", "pivot"});
+  // A part of the error of the angle is assumed; the pieces are to be within the rest.
+  const Json* given = json.find("assumed_angle_error");
+  const Rational assumed = given ? error_of(given) : Rational(0);
+  const Rational error = exact_number(member(json, "error")) - assumed;
+  const Rational off = error_of(member(json, "place_error"));
+  PathRecord record{pair(json.find("pivot"), 0, 0), poses(json), error, off};
+  if (sign(error) <= 0 || record.poses.empty() || !are_in_order(record.poses))
+    throw NoProof("the scene has a path without errors, or whose times do not increase");
+  return record;
+}
+
+// That a spin names a pivot which is not that of all its pieces is an error.
+void check_pivot(const Json& spin, const Pieces<Motion>& pieces) {
+  const Json* given = spin.find("pivot");
+  if (!given) return;
+  const Place pivot = pair(given, 0, 0);
+  for (const Motion& motion : pieces.all)
+    if (!motion.turn || motion.turn->pivot != pivot)
+      throw NoProof("the scene has a spin with another pivot than that of its pieces");
+}
+
+// The motion of a body: a piece or several, and the pivot of the path that they follow.
+struct BodyMotion {
+  Pieces<Motion> pieces;
+  std::optional<Place> path_pivot;
+};
+
+BodyMotion motion_of(const Json* json, std::size_t shape, bool are_records_verified) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
-    return {{}, {simple_motion(json, shape)}};
+    return {{{}, {simple_motion(json, shape)}}, {}};
   allow_keys(*json, {"pieces", "spin", "path", "spline"});
   int records = 0;
   for (const char* key : {"spin", "path", "spline"}) records += json->find(key) ? 1 : 0;
@@ -229,7 +266,8 @@ Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_ver
     pieces.all.push_back(simple_motion(member(row, "motion"), shape));
   }
   if (const Json* spin = json->find("spin")) {
-    allow_keys(*spin, {"omega", "error"});
+    allow_keys(*spin, {"omega", "error", "pivot"});
+    check_pivot(*spin, pieces);
     const std::vector<Turn> turns = turns_of(pieces);
     const Rational omega = exact_number(member(*spin, "omega"));
     const Rational error = exact_number(member(*spin, "error"));
@@ -238,28 +276,20 @@ Pieces<Motion> motions(const Json* json, std::size_t shape, bool are_records_ver
         (turns.size() < pieces.all.size() || !is_spin(pieces.until, turns, omega, error)))
       throw NoProof("the scene has a spin whose pieces do not turn so");
   }
+  std::optional<Place> path_pivot;
   if (const Json* path = json->find("path")) {
-    allow_keys(*path, {"error", "place_error", "assumed_angle_error", "times", "poses"});
+    const PathRecord record = path_of(*path);
     const std::vector<Turn> turns = turns_of(pieces);
-    // A part of the error of the angle is assumed; the pieces are to be within the rest.
-    const Json* given = path->find("assumed_angle_error");
-    const Rational assumed = given ? exact_number(given) : Rational(0);
-    if (sign(assumed) < 0) throw NoProof("the scene has a path with a negative assumed error");
-    const Rational error = exact_number(member(*path, "error")) - assumed;
-    const Rational off = exact_number(member(*path, "place_error"));
-    const std::vector<Pose> rows = poses(*path);
-    if (sign(error) <= 0 || sign(off) < 0 || rows.empty() || !are_in_order(rows))
-      throw NoProof("the scene has a path without errors, or whose times do not increase");
     if (are_records_verified &&
-        (turns.size() < pieces.all.size() || !is_path(pieces.until, turns, rows, error, off)))
+        (turns.size() < pieces.all.size() || !is_path(pieces.until, turns, record)))
       throw NoProof("the scene has a path that its pieces do not follow");
+    path_pivot = record.pivot;
   }
   if (const Json* spline = json->find("spline")) {
     allow_keys(*spline, {"error"});
-    if (sign(exact_number(member(*spline, "error"))) < 0)
-      throw NoProof("the scene has a spline with a negative error");
+    error_of(member(*spline, "error"));
   }
-  return pieces;
+  return {pieces, path_pivot};
 }
 
 using Shape = std::vector<Position>;
@@ -374,6 +404,43 @@ std::vector<Place> places(const Shape& shape, const Rational& t) {
   return result;
 }
 
+// The points about which a motion turns its body.
+std::set<Place> pivots_of(const BodyMotion& motion) {
+  if (motion.path_pivot) return {*motion.path_pivot};
+  std::set<Place> pivots;
+  for (const Motion& piece : motion.pieces.all)
+    if (piece.turn) pivots.insert(piece.turn->pivot);
+  return pivots;
+}
+
+// Whether a stated error lets the true body differ from the one in the file. An error of the angle
+// is a turn about a reference point: the one about which the motion turns, or else the body's pivot.
+bool has_error(const Json& body, const BodyMotion& motion) {
+  const auto given = [&](const char* key) {
+    const Json* error = body.find(key);
+    return error ? error_of(error) : Rational(0);
+  };
+  const Rational place = given("place_error"), angle = given("angle_error");
+  bool has_shape_error = false;
+  if (const Json* errors = body.find("shape_error")) {
+    if (list(errors).size() != 2)
+      throw NoProof("the scene has a shape_error that is not of two numbers");
+    for (const Json& error : errors->items)
+      if (error_of(&error) > 0) has_shape_error = true;
+  }
+  const Json* pivot = body.find("pivot");
+  if (pivot) pair(pivot, 0, 0);
+  if (angle == 0) {
+    if (pivot) throw NoProof("the scene has a body with a pivot, and without an angle_error");
+    return place > 0 || has_shape_error;
+  }
+  const std::size_t pivots = pivots_of(motion).size();
+  if (pivots > 1) throw NoProof("the scene has an angle_error of a body that turns about two points");
+  if (pivots == 0 && !pivot) throw NoProof("the scene has an angle_error without a pivot");
+  if (pivots == 1 && pivot) throw NoProof("the scene has a pivot beside that of the motion");
+  return true;
+}
+
 void check_jumps(const Body& body, const Pieces<Shape>& shape, const Pieces<Motion>& motion) {
   for (std::size_t i = 0; i < motion.until.size(); ++i) {
     const Rational& t = motion.until[i];
@@ -455,7 +522,7 @@ const Json* member(const Json& json, std::string_view key) {
 
 Body read_body(const Json& json, int first, const Rational& start, bool are_records_verified) {
   allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts", "radius",
-                    "properties"});
+                    "properties", "place_error", "angle_error", "shape_error", "pivot"});
   const Json* properties = json.find("properties");
   if (properties && properties->kind != Json::Kind::object)
     throw NoProof("the scene has properties that are no object");
@@ -475,7 +542,9 @@ Body read_body(const Json& json, int first, const Rational& start, bool are_reco
   std::size_t highest = json.find("keyframes") ? 1 : 0;
   for (const auto& [x, y] : shape.all.front())
     if (!json.find("keyframes")) highest = std::max({highest, degree(x), degree(y)});
-  const Pieces<Motion> motion = motions(json.find("motion"), highest, are_records_verified);
+  const BodyMotion given = motion_of(json.find("motion"), highest, are_records_verified);
+  const Pieces<Motion>& motion = given.pieces;
+  body.is_modelled = has_error(json, given);
   body.size = static_cast<int>(shape.all.front().size());
   const bool is_closed = !closed || closed->truth;
   body.is_polygon = body.size > 2 && is_closed;

@@ -1,11 +1,12 @@
 #include "scene.hpp"
 
 #include <algorithm>
-#include <set>
+#include <unordered_map>
 
 #include "faults.hpp"
 #include "reading.hpp"
 #include "simple.hpp"
+#include "units.hpp"
 
 namespace proof {
 
@@ -139,7 +140,7 @@ Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b) {
 
 Scene::Scene(const std::string& text, bool are_records_verified) {
   const Json json = parse_json(text);
-  allow_keys(json, {"exactpt", "time", "bodies"});
+  allow_keys(json, {"exactpt", "time", "bodies", "ignoring", "units", "epoch"});
   const Json* version = json.find("exactpt");
   const Json* time = json.find("time");
   const Json* bodies = json.find("bodies");
@@ -150,13 +151,21 @@ Scene::Scene(const std::string& text, bool are_records_verified) {
   start_ = exact_number(&time->items[0]);
   end_ = exact_number(&time->items[1]);
   if (start_ >= end_) throw NoProof("the scene has an empty time span");
-  std::set<std::string> names;
+  std::unordered_map<std::string, int> number_of;
   for (const Json& body : list(bodies)) {
     bodies_.push_back(read_body(body, size(), start_, are_records_verified));
-    if (!names.insert(bodies_.back().name).second) throw NoProof("the scene has a name twice");
-    body_of_.resize(body_of_.size() + static_cast<std::size_t>(bodies_.back().size),
-                    static_cast<int>(bodies_.size()) - 1);
+    const int number = static_cast<int>(bodies_.size()) - 1;
+    if (!number_of.emplace(bodies_.back().name, number).second)
+      throw NoProof("the scene has a name twice");
+    body_of_.resize(body_of_.size() + static_cast<std::size_t>(bodies_.back().size), number);
   }
+  const Json* ignoring = json.find("ignoring");
+  groups_ = ignoring ? Groups(*ignoring, number_of) : Groups(bodies_.size());
+  check_units(json.find("units"), json.find("epoch"));
+}
+
+bool Scene::is_modelled() const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.is_modelled; });
 }
 
 void Scene::examine(const Rational& end) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "groups.hpp"
 #include "polynomial.hpp"
 #include "time.hpp"
 
@@ -42,6 +43,7 @@ struct Body {
   int size = 0;
   bool is_polygon = false;
   bool is_rigid = false;            // during the time span of the proof
+  bool is_modelled = false;         // the true body may differ from it, by a stated error
   std::vector<Ring> rings;
   std::vector<Rational> breaks;     // times at which the formulas change
   std::vector<std::vector<Path>> pieces;  // one more than breaks; each with all vertices
@@ -64,6 +66,8 @@ class Scene {
   const Rational& end() const { return end_; }
   const std::vector<Body>& bodies() const { return bodies_; }
   int size() const { return static_cast<int>(body_of_.size()); }
+  const Groups& groups() const { return groups_; }
+  bool is_modelled() const;  // some body is
 
   // Which of its bodies are rigid up to a time. Throws Rejected.
   void examine(const Rational& end);
@@ -90,6 +94,7 @@ class Scene {
   Rational start_, end_;
   std::vector<Body> bodies_;
   std::vector<int> body_of_;
+  Groups groups_;
 };
 
 }  // namespace proof

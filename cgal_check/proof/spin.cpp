@@ -140,7 +140,8 @@ bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Ratio
   const Rationals& h = turn.half_turn;
   Rationals rate{omega};
   trim(rate);
-  const Rational between = bound(derivative(h) + derivative(h) - rate * (Rationals{1} + h * h), a, b) * (b - a) / (2 * samples);
+  const Rationals slope = derivative(h) + derivative(h) - rate * (Rationals{1} + h * h);
+  const Rational between = bound(slope, a, b) * (b - a) / (2 * samples);
   const Rational furthest = abs(omega) * std::max(Rational(abs(a)), Rational(abs(b)));
   long bits = bits_for(error, furthest);
   if (bits > most_bits || between > error) return false;
@@ -165,8 +166,9 @@ bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Ratio
 
 // Whether one turn, from a to b, is near a pose.
 bool is_near(const Turn& turn, const Rational& a, const Rational& b, const Pose& pose,
-             const Rational& error, const Rational& place_error) {
-  if (turn.pivot.first != 0 || turn.pivot.second != 0) return false;
+             const PathRecord& record) {
+  const Rational &error = record.error, &place_error = record.place_error;
+  if (turn.pivot != record.pivot) return false;  // else the translations cannot be compared
   if (a == b && std::max({turn.half_turn.size(), turn.x.size(), turn.y.size()}) > 1) return false;
   const auto there = [&](const Rationals& f) {
     return along(f, Rational(a - pose.begin), Rational(b - pose.begin));
@@ -207,8 +209,9 @@ bool is_continuous(const Pose& before, const Pose& after) {
 }  // namespace
 
 bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
-             const std::vector<Pose>& path, const Rational& error, const Rational& place_error) {
-  if (error <= 0 || place_error < 0 || path.empty() || until.size() < 2) return false;
+             const PathRecord& record) {
+  const std::vector<Pose>& path = record.poses;
+  if (record.error <= 0 || record.place_error < 0 || path.empty() || until.size() < 2) return false;
   if (until.front() != path.front().begin || until.back() != path.back().end) return false;
   for (std::size_t i = 0; i < path.size(); ++i)
     if (path[i].begin >= path[i].end || (i > 0 && !is_continuous(path[i - 1], path[i])))
@@ -218,7 +221,7 @@ bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
     const Rational& a = until[i == 0 ? 0 : i - 1];
     const Rational& b = until[std::min(i, until.size() - 1)];
     while (k + 1 < path.size() && a >= path[k].end) ++k;
-    if (b > path[k].end || !is_near(turns[i], a, b, path[k], error, place_error)) return false;
+    if (b > path[k].end || !is_near(turns[i], a, b, path[k], record)) return false;
   }
   return true;
 }

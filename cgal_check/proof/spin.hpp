@@ -26,12 +26,19 @@ struct Pose {
   Poly<Rational> x, y, angle;
 };
 
-// True if turns about the origin follow a path, at rest before and after it, with at most an
+// The record of a path: poses that turn about a pivot, and which turns follow within errors.
+struct PathRecord {
+  std::pair<Rational, Rational> pivot;
+  std::vector<Pose> poses;
+  Rational error, place_error;  // of the angle, without what is assumed of it; of the translation
+};
+
+// True if turns about the pivot follow a path, at rest before and after it, with at most an
 // error of the angle and one of the translation. With h and the angle polynomials of the part s of
 // a piece, the error e of the angle has the derivative w N, w = 1 / (1 + h^2) and N = 2 h' - angle' (1
 // + h^2). With E the primitive of N from 0 on, by parts, |e(s)| <= |e(0)| + max |E| (1 + 2 max
 // |h| max |h'|), since |w'| <= 2 |h h'|.
 bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
-             const std::vector<Pose>& path, const Rational& error, const Rational& place_error);
+             const PathRecord& path);
 
 }  // namespace proof

@@ -78,6 +78,8 @@ std::string quoted(const std::string& name) {
   return result + quote;
 }
 
+std::string about(bool is_modelled) { return is_modelled ? "modelled bodies: " : ""; }
+
 std::string Checker::conclusion() const {
   const std::string from = scene_.start().get_str(), to = text_.end.get_str();
   const std::string last = scene_.end().get_str();

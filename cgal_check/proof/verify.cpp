@@ -222,6 +222,13 @@ void refuse_radii(const Scene& scene) {
     if (body.radius != 0) throw NoProof("the scene has a radius: no proof is possible");
 }
 
+// What is wrong with a proof by a tiling of this scene, whatever its lines are; empty if nothing.
+std::string objection(const Scene& scene) {
+  return scene.groups().is_empty()
+             ? ""
+             : "a proof by a tiling counts all pairs, this scene ignores some";
+}
+
 int verify_certificate(const Call& call, const std::string& scene_bytes, const std::string& bytes) {
   if (call.jobs != 1) throw NoProof(usage);
   const ApartText text = parse_certificate(bytes);
@@ -230,7 +237,8 @@ int verify_certificate(const Call& call, const std::string& scene_bytes, const s
     throw NoProof("the certificate was made for a different scene: the hashes differ");
   const Scene scene(scene_bytes, false);
   const Statement found = check_apart(scene, text);
-  const std::string proved = "accepted: " + hash.substr(0, 16) + " " + found.text;
+  const std::string proved =
+      "accepted: " + hash.substr(0, 16) + " " + about(scene.is_modelled()) + found.text;
   const bool is_up_to = !call.expected.empty() || (call.until && *call.until <= found.until);
   const bool is_enough = found.is_whole || call.is_partial || (found.is_of_all && is_up_to);
   if (!is_enough)
@@ -264,10 +272,12 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
   if (rows.size() != scenes.size() + 2) throw NoProof("the numbers of scenes and of rows differ");
   const char* kinds[] = {"no contact", "first contact", "contact at the start", "open"};
   std::size_t found[4] = {};
+  bool is_modelled = false;  // in one of the scenes
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     if (k > 0 && scenes[k].compare(0, 3, "\xef\xbb\xbf") == 0)
       throw NoProof("a byte order mark that is not the beginning of the file");
     const Scene scene(scenes[k], false);
+    is_modelled = is_modelled || scene.is_modelled();
     std::string& row = rows[k + 2];
     if (row == "open") {
       ++found[3];
@@ -291,7 +301,8 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
   for (std::size_t i = 0; i < 4; ++i)
     if (found[i])
       said += (said.empty() ? "" : ", ") + (kinds[i] + (" in " + std::to_string(found[i])));
-  const std::string text = "accepted: " + hash.substr(0, 16) + " " + std::to_string(scenes.size()) +
+  const std::string text = "accepted: " + hash.substr(0, 16) + " " + about(is_modelled) +
+                           std::to_string(scenes.size()) +
                            " rows, each of two or more bodies in the whole span: " + said;
   if (found[3] && !call.is_partial)
     return answer("rejected: proved is only a part (see --until, --partial): " + text, 1);
@@ -310,6 +321,7 @@ int verify_pair(const Call& call) {
     throw NoProof("the proof is of another scene: the hash of its file is another one");
   Scene scene(scene_bytes);
   refuse_radii(scene);
+  if (const std::string why = objection(scene); !why.empty()) throw Rejected(why);
   const std::string expected = call.expected.empty() ? "" : bytes_of(call.expected);
   const std::string* wanted = call.expected.empty() ? nullptr : &expected;
   const Verdict found = call.jobs == 1 ? verdict(scene, text, wanted, 0, 1)
@@ -317,9 +329,11 @@ int verify_pair(const Call& call) {
   if (found.code != 0) return answer_failure(found, "");
   if (!found.difference.empty())
     return answer("rejected: " + found.difference + " in " + quoted(call.expected) +
-                  "; proved is: " + found.text, 1);
+                      "; proved is: " + about(scene.is_modelled()) + found.text,
+                  1);
   if (is_too_short(call, scene, text)) return answer_too_short(text);
-  return answer("accepted: " + hash.substr(0, 16) + " " + found.text, 0);
+  const std::string of_bodies = about(scene.is_modelled());
+  return answer("accepted: " + hash.substr(0, 16) + " " + of_bodies + found.text, 0);
 }
 
 int verify_folder(const Call& call) {
@@ -333,6 +347,7 @@ int verify_folder(const Call& call) {
     if (text.hash != sha256(scene_bytes)) throw NoProof("the proof is of another scene" + where);
     Scene scene(scene_bytes);
     refuse_radii(scene);
+    if (const std::string why = objection(scene); !why.empty()) throw Rejected(why + where);
     const Verdict found = call.jobs == 1 ? verdict(scene, text, nullptr, 0, 1)
                                          : by_processes(scene, text, nullptr, call.jobs);
     if (found.code != 0) return answer_failure(found, where);

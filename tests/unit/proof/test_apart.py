@@ -31,6 +31,7 @@ def bodies(*others):
 
 
 TWO = bodies(Body("b", moved(BOX, 5, 0)))  # which meet at t = 4
+THREE = bodies(Body("b", moved(BOX, 5, 0)), Body("c", [(5, 7)]))
 PAST = bodies(Body("b", moved(BOX, 5, 2)))  # which do not
 MANY = bodies(Body("b", moved(BOX, 5, 2)), Body("c", moved(BOX, 5, -1)), Body("d", [(7, 0)]))
 
@@ -605,7 +606,9 @@ def check_expected(checker, folder):
         assert checker("--expect", answer) == code, data
     answer.write_text(json.dumps(EXPECTED[0][0]), encoding="utf-8")
     assert checker("--expect", answer, "--until", "3") == 2
-    exactpt.certify(TWO, between=[("a", "b")]).save(path)
+    exactpt.certify(TWO, between=[("a", "b")]).save(path)  # all pairs of this scene
+    assert checker("--expect", answer) == 0
+    exactpt.certify(THREE, between=[("a", "b")]).save(path)
     assert checker("--expect", answer) == 1
     assert checker("--expect", answer, "--partial") == 0
     exactpt.certify(TWO, distance="1/1000000000").save(path)  # of an approach, soon before
