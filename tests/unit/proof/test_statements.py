@@ -244,11 +244,13 @@ def test_bug_short_products_of_long_numbers_are_counted():
 
 def test_bug_a_long_rate_of_a_spin_is_counted():
     """2,000 such pieces took 16 seconds before the budget was used up."""
-    turn = (proof_scene.Poly([0]), (1, 0), None)
+    zero = proof_scene.Poly()
+    turn = proof_scene.Turn(
+        zero, (Fraction(1), Fraction(0)), (Fraction(0), Fraction(0)), zero, zero
+    )
+    spin = proof_scene.SpinRecord(omega=Fraction(1, 3**20000), error=Fraction(1, 3))
     with proof_scene.budget(100_000_000), pytest.raises(proof_scene.Exhausted):
-        proof_scene.turns_in(
-            turn, (Fraction(0), Fraction(1)), Fraction(1, 3**20000), Fraction(1, 3)
-        )
+        proof_scene.turns_in(turn, (Fraction(0), Fraction(1)), spin)
 
 
 def test_bug_frames_that_are_translated_need_no_tracks_of_all_vertices(monkeypatch):
