@@ -21,7 +21,7 @@ from fuzz.members import members
 from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
-from fuzz.proofs.command import certificates, proof_both, proof_mutants
+from fuzz.proofs.command import certificates, proof_both, proof_mutants, scene_readers
 from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
@@ -234,6 +234,7 @@ COMMANDS = {
     "certificates": certificates,
     "proof-both": proof_both,
     "proof-mutants": proof_mutants,
+    "scene-readers": scene_readers,
     "small-scope": small_scope,
     "questions": questions,
     "transformations": transformations,

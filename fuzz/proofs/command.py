@@ -1,4 +1,4 @@
-"""The commands ``python -m fuzz proof-mutants`` and ``proof-both``."""
+"""Commands of ``python -m fuzz`` about proofs, certificates, and the readers of their scenes."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import click
 from fuzz.options import HELP, Options, conduct, options, require_cgal
 from fuzz.proofs.apart import Apart
 from fuzz.proofs.both import Both
+from fuzz.proofs.readers import Readers
 from fuzz.proofs.run import KINDS, Mutants
 
-__all__ = ["certificates", "proof_both", "proof_mutants"]
+__all__ = ["certificates", "proof_both", "proof_mutants", "scene_readers"]
 
 
 @click.command("proof-mutants", context_settings=HELP)
@@ -69,3 +70,14 @@ def certificates(chosen: Options, keep: Path) -> None:
     """
     require_cgal("another command")
     conduct(Apart(chosen.seed, keep), chosen, again=f"--seed {chosen.seed}")
+
+
+@click.command("scene-readers", context_settings=HELP)
+@click.option(
+    "--keep", type=click.Path(file_okay=False, path_type=Path), default=Path("readers-found")
+)
+@options(1000, seed=1)
+def scene_readers(chosen: Options, keep: Path) -> None:
+    """Have damaged scenes read by the package and both checkers: all accept one, or none does."""
+    require_cgal("another command")
+    conduct(Readers(chosen.seed, keep), chosen, again=f"--seed {chosen.seed}")
