@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -35,6 +36,7 @@ BASES: Final = 120
 WITH_PATHS: Final = 20
 """Number of those with bodies along paths, which take most time."""
 MAX_VERTICES: Final = 40
+TABLE: Final = Path(__file__).parents[2] / "tests" / "data" / "grammar-misuse.json"
 
 Json = Any
 
@@ -155,10 +157,19 @@ def base(number: int) -> str:
     return json.dumps(dressed(data, random) if number % 6 else data)
 
 
+@cache
+def of_table() -> list[str]:
+    """Return the texts of the scenes that test the new keys, right ones and wrong ones."""
+    rows = json.loads(TABLE.read_text(encoding="utf-8"))
+    return [json.dumps(row["scene"]) for row in rows]
+
+
 def damaged_scene(seed: int, number: int) -> bytes | None:
     """Return a scene with none to three damages; None if the one to be damaged is large."""
     random = Random(f"readers:{seed}:{number}")
     text = base(random.randrange(BASES))
+    if random.random() < 0.4:
+        text = random.choice(of_table())
     if not text:
         return None
     data = json.loads(text)
@@ -187,6 +198,11 @@ def _names(data: Json) -> list[str]:
     return [name for name in names if isinstance(name, str)]
 
 
+def _value(random: Random) -> Json:
+    """Return some value; a copy, for it may be damaged too."""
+    return deepcopy(random.choice(VALUES))
+
+
 def _damage(data: Json, random: Random) -> None:
     """Change a value, a key or a text somewhere, most often at one of the new keys."""
     every = [*_places(data)]
@@ -194,7 +210,7 @@ def _damage(data: Json, random: Random) -> None:
     holder, key = random.choice(new if new and random.random() < 0.6 else every)
     kind = random.randrange(8)
     if kind == 0:
-        holder[key] = random.choice(VALUES)
+        holder[key] = _value(random)
     elif kind in (1, 2) and key in NEW_KEYS:
         holder[key] = NEW_KEYS[key](random, _names(data))
     elif kind == 3:
@@ -204,7 +220,7 @@ def _damage(data: Json, random: Random) -> None:
         letter = random.choice("0129*-+:.TZ a\n\x85")
         holder[key] = holder[key][:k] + letter + holder[key][k + random.randrange(2) :]
     elif kind == 5 and isinstance(holder, dict):
-        holder[random.choice(KEYS)] = random.choice(VALUES)
+        holder[random.choice(KEYS)] = _value(random)
     else:
         _give_new_key(data, [place[0][place[1]] for place in every], random)
 
