@@ -1438,6 +1438,7 @@ def group_of(data: Json, number_of: dict[str, int]) -> frozenset[int]:
         spend(len(number_of))
         matching = [i for name, i in number_of.items() if name.startswith(beginning)]
         need(matching, "ignoring: no body matches", text)
+        spend(100 * len(matching))  # a short pattern may stand for many bodies
         group.update(matching)
     need(len(group) > 1, "ignoring: a group of fewer than two bodies:", data)
     return frozenset(group)
@@ -1517,7 +1518,7 @@ class Scene:
 
     def do_count(self, i: int, j: int) -> bool:
         """Return True if two bodies count as a pair: no group has both."""
-        spend(20)
+        spend(20 + len(self.groups_of[i]))
         return self.groups_of[i].isdisjoint(self.groups_of[j])
 
     def of(self, v: int) -> Body:

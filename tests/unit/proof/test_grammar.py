@@ -248,6 +248,14 @@ def test_ignoring_is_not_transitive_in_certificates(verdict):
     assert (code, "proved is only a part" in said) == (1, True)
 
 
+def test_patterns_of_many_bodies_are_counted(verdict):
+    """A megabyte of patterns would fill the memory: each stands for thousands of bodies."""
+    bodies = [(f"b{k}", k, 0, {}) for k in range(5000)]
+    scene = scene_of(bodies, ignoring=[["*"]] * 40_000)
+    code, said = verdict(scene, certificate(scene, "none"))
+    assert (code, "budget of work" in said) == (4, True)
+
+
 def test_every_body_in_one_group_leaves_nothing_to_prove(verdict):
     scene = scene_of(THREE, ignoring=[["*"]])
     code, said = verdict(scene, certificate(scene, "ignoring 0 1 2", "none"))
