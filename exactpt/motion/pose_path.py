@@ -82,9 +82,9 @@ class PosePath(Pieces):
     """
 
     __slots__ = (
-        "_pivot",
         "exact_assumed_angle_error",
         "exact_error",
+        "exact_pivot",
         "exact_place_error",
         "exact_poses",
         "exact_times"
@@ -143,7 +143,7 @@ class PosePath(Pieces):
                             f"piece {i}: {name} has degree {f.degree}: give a place_error"
                         )
         angle_error = self.exact_error - self.exact_assumed_angle_error
-        pieces = pieces_along(self._spans(), angle_error, place_error, self._pivot)
+        pieces = pieces_along(self._spans(), angle_error, place_error, self.exact_pivot)
         Pieces.__init__(self, pieces)
 
     def _hold(
@@ -161,7 +161,7 @@ class PosePath(Pieces):
         self.exact_error, self.exact_place_error = rational(error), rational(place_error)
         self.exact_assumed_angle_error = rational(assumed_angle_error)
         px, py = rationals(pivot, 2, "a pivot has two coordinates")
-        self._pivot: Point = (px, py)
+        self.exact_pivot: Point = (px, py)
         if len(self.exact_times) != len(self.exact_poses) + 1 or not self.exact_poses:
             raise InputError(
                 f"a path has at least one pose, and one pose fewer than times: "
@@ -359,9 +359,9 @@ class PosePath(Pieces):
     def _check_pivots(self) -> None:
         """Check that all rigid pieces turn about the pivot."""
         for i, turn in enumerate(self.motions):
-            if isinstance(turn, Rigid) and turn.exact_pivot != self._pivot:
+            if isinstance(turn, Rigid) and turn.exact_pivot != self.exact_pivot:
                 raise InputError(
-                    f"the pieces of a path turn about its pivot, {show(*self._pivot)}, got "
+                    f"the pieces of a path turn about its pivot, {show(*self.exact_pivot)}, got "
                     f"{show(*turn.exact_pivot)} (piece {i})"
                 )
 
@@ -398,7 +398,7 @@ class PosePath(Pieces):
     @property
     def pivot(self) -> tuple[Fraction, Fraction]:
         """The point of the rest frame about which the body turns."""
-        return place(self._pivot)
+        return place(self.exact_pivot)
 
     @property
     def error(self) -> Fraction:
@@ -461,7 +461,7 @@ class PosePath(Pieces):
             self.exact_error,
             total,
             self.exact_assumed_angle_error,
-            self._pivot,
+            self.exact_pivot,
         )
 
     def exact_assumed_errors(self) -> tuple[QQ, QQ]:
@@ -486,7 +486,7 @@ class PosePath(Pieces):
         errors = map(
             str, (self.exact_error, self.exact_place_error, self.exact_assumed_angle_error)
         )
-        pivot = tuple(map(str, self._pivot))
+        pivot = tuple(map(str, self.exact_pivot))
         return (pieces, times, self.exact_poses, *errors, pivot), {}
 
     def __reduce__(self) -> tuple[object, ...]:
