@@ -69,7 +69,12 @@ def pytest_configure(config):
 def is_long(item):
     """Return True if the marker `long` names no cases, or this one."""
     marker = item.get_closest_marker("long")
-    return marker is not None and (not marker.args or item.callspec.id in marker.args)
+    if marker is None or not marker.args:
+        return marker is not None
+    if not hasattr(item, "callspec"):
+        cases = ", ".join(map(repr, marker.args))
+        raise pytest.UsageError(f"{item.nodeid}: long({cases}) names cases, and there are none")
+    return item.callspec.id in marker.args
 
 
 @pytest.hookimpl(trylast=True)

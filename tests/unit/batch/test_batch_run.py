@@ -676,7 +676,7 @@ def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     assert not list(tmp_path.glob("answers.jsonl*"))
 
 
-@pytest.mark.long("6")
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")
 def test_bug_a_silent_scheduler_is_named_within_five_seconds(scenes, tmp_path):
     """It accepts the connection and does not answer: the client waited for 30 s and more."""
