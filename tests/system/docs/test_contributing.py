@@ -2,7 +2,8 @@
 
 Each section is followed in a copy of the checkout, block by block: a ``diff`` is applied, and of a
 ``console`` each command runs, and prints something that has each line below it. (Of `make accept`
-only the digests are written: pictures take minutes, and need programs.)
+only the digests are written: pictures take minutes, and need programs.) Where a contribution has
+been made, its test is skipped.
 """
 
 import os
@@ -21,7 +22,7 @@ RENEW = """\
 The diff of "{title}" in CONTRIBUTING.md no longer applies: its surroundings have changed.
 Renew it: save the block as block.diff, run `git apply --reject block.diff` in a clean checkout,
 carry out by hand what is in the .rej files, and replace the block by the output of
-`git add --intent-to-add . && git diff -U2` without its `index` lines. Then undo the changes.
+`git add --intent-to-add . && git diff -U1` without its `index` lines. Then undo the changes.
 
 {errors}"""
 
@@ -34,6 +35,12 @@ def blocks(title):
     return re.findall(r"^```(\w+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
 
 
+def created(title):
+    """Return the paths of the files that a contribution creates."""
+    paths = r"^--- /dev/null\n\+\+\+ b/(.*)$"
+    return [path for _, text in blocks(title) for path in re.findall(paths, text, re.MULTILINE)]
+
+
 def steps(console):
     """Return the commands of a console, each with the lines that it prints."""
     command, *more = re.split(r"^\$ ", console, flags=re.MULTILINE)
@@ -41,11 +48,13 @@ def steps(console):
     return [(first, lines) for first, *lines in map(str.splitlines, more)]
 
 
-@pytest.fixture
-def run(tmp_path):
-    """Run a command in a repository with the files of this checkout; return all that it prints."""
-    folder = tmp_path / "checkout"
-    copy_to(folder)
+def repository(folder):
+    """Make a repository of the files of this checkout.
+
+    Returns:
+        A function that runs a command there, and returns the exit code and all that it prints.
+    """
+    copy_to(folder, and_new=True)
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     environment = {**kept, "PYTHONPATH": str(folder), "GIT_CONFIG_GLOBAL": os.devnull}
 
@@ -80,7 +89,11 @@ def printed(run, command):
 
 @needs_git
 @pytest.mark.parametrize("title", CONTRIBUTIONS)
-def test_contribution_followed_step_by_step_prints_what_the_page_says(title, run):
+def test_contribution_followed_step_by_step_prints_what_the_page_says(title, tmp_path):
+    made = [path for path in created(title) if (ROOT / path).exists()]
+    if made:
+        pytest.skip(f"the contribution has been made: {', '.join(made)}")
+    run = repository(tmp_path / "checkout")
     if title == "A family of scenes":  # of another new family, nobody may have written the digests
         write_digests(run)
         run("git", "add", "--all")
