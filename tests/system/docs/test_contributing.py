@@ -107,6 +107,23 @@ def test_contribution_followed_step_by_step_prints_what_the_page_says(title, tmp
             assert has_failed == bool(re.search("failed|error", lines[-1])), f"{command}\n{shown}"
 
 
+@needs_git
+@pytest.mark.slow
+@pytest.mark.parametrize("tool", ["ruff format --check", "ruff check", "mypy"])
+def test_contributions_that_are_applied_pass_lint(tool, tmp_path):
+    name, *arguments = tool.split()
+    pytest.importorskip(name)
+    if any((ROOT / path).exists() for title in CONTRIBUTIONS for path in created(title)):
+        pytest.skip("a contribution has been made")
+    run = repository(tmp_path / "checkout")
+    diffs = [text for title in CONTRIBUTIONS for kind, text in blocks(title) if kind == "diff"]
+    assert [run("git", "apply", "-", given=diff) for diff in diffs] == [(0, "")] * len(diffs)
+
+    code, shown = run(sys.executable, "-m", name, *arguments)
+
+    assert code == 0, shown
+
+
 @pytest.mark.parametrize("title", CONTRIBUTIONS)
 def test_contribution_has_a_test_before_the_code(title):
     """The first diff is a test, which fails; the last run of tests passes."""
