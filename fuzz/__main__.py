@@ -138,7 +138,9 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
 
 @click.command("planted", context_settings=HELP)
 @click.argument("words", nargs=-1, metavar="[WORD]...")
-@click.option("--cases", "most", type=click.IntRange(min=1), default=400, show_default=True)
+@click.option(
+    "--cases", "most", type=click.IntRange(min=1), default=planted.MOST, show_default=True
+)
 @click.option("--seed", type=int, default=0, show_default=True)
 def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
     """Plant classic bugs one at a time, and count the cases until the fuzzer finds them.

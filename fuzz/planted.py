@@ -50,10 +50,12 @@ from fuzz.questions.command import KEPT, ask
 from fuzz.small_scope.look import look
 from fuzz.small_scope.scope import planned
 
-__all__ = ["PLANTED", "WITNESSES", "Found", "Mistake", "hunt", "table"]
+__all__ = ["MOST", "PLANTED", "WITNESSES", "Found", "Mistake", "hunt", "table"]
 
 WITNESSES: Final = ("reference", "static", "filters", "symmetry")
 
+MOST: Final = 14 * len(FAMILIES)
+"""Number of scenes in which a mistake is looked for: as many of each family, however many."""
 FAMILIES_AS_THEY_ARE: Final = "families"
 AWKWARD_FAMILIES: Final = "awkward families"
 THE_SMALL_SCOPE: Final = "the small scope"
@@ -541,7 +543,12 @@ class Found:
         return (self.failure is None) == bool(PLANTED[self.bug].masked)
 
 
-def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
+def hunt(
+    bug: str,
+    most: int = MOST,
+    witnesses: Sequence[str] = WITNESSES,
+    seed: int = 0,
+) -> Found:
     """Look for a planted bug where it is hunted, in at most ``most`` scenes of families.
 
     In the small scope there are `SMALL_SCOPE` scenes; a question is asked `EASY` times as often.

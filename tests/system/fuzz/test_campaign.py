@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from exactpt import InputError, Scene
+from exactpt.testing import scenes
 from exactpt.testing.scenes import generate
 from exactpt.tiling.start import tilings_for
 from fuzz import corpus
@@ -372,7 +373,7 @@ def test_what_breaks_and_what_hangs_is_a_failure(monkeypatch):
 @pytest.mark.plain
 @pytest.mark.parametrize("bug", ["the wrong diagonal gives way", "vertical bitangents ignored"])
 def test_a_planted_bug_is_found(bug):
-    found = hunt(bug, 60, ("static",))
+    found = hunt(bug, 3 * len(scenes.FAMILIES), ("static",))
 
     assert found.failure is not None
     assert bug in table([found])[1]

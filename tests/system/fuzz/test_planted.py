@@ -48,7 +48,7 @@ QUICKLY_FOUND = (
 
 @pytest.mark.parametrize("bug", QUICKLY_FOUND)
 def test_mistake_of_a_stranger_is_found_where_it_is_hunted(bug):
-    found = hunt(bug, 60)
+    found = hunt(bug, 3 * len(FAMILIES))
 
     assert found.failure is not None
     assert (
