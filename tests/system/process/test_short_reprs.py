@@ -33,7 +33,7 @@ def values_in(value, depth=DEPTH):
         return
     for name in dir(type(value)):
         # In compiled classes some private names have no value; properties are descriptors there.
-        if not name.startswith("_") and hasattr(getattr(type(value), name), "__set__"):
+        if not name.startswith(("_", "exact_")) and hasattr(getattr(type(value), name), "__set__"):
             yield from attributes(value, name, depth)
     names = getattr(value, "_fields", ())
     if dataclasses.is_dataclass(value):
