@@ -550,6 +550,9 @@ class Checker:
             require(met is None or self.until < met.time, "a contact before the end of the span")
             self.check_outside()
             self.check_apart()
+        if met is not None:
+            does_count = self.scene.do_count(*met.bodies)
+            require(does_count, "the contact is one of two bodies that ignore each other")
         unproved = self.unproved(met)
         said = self.in_words(met, is_whole=not unproved)
         if unproved:
@@ -566,8 +569,7 @@ class Checker:
             proved.kind = "contact at the start"
         proved.meets = met is not None and not self.distance
         is_from_start = self.start == self.scene.start
-        is_of_scene = met is None or self.scene.do_count(*met.bodies)
-        proved.is_of_all = is_from_start and is_of_scene and self.has_all_that_count()
+        proved.is_of_all = is_from_start and self.has_all_that_count()
         proved.whole = proved.is_of_all and not unproved
         return proved
 

@@ -171,8 +171,9 @@ class Checker {
     result.until = high;
     result.low = text_.end;
     result.has_contact = has_contact && text_.distance == 0;
-    const bool is_of_scene = !has_contact || scene_.groups().do_count(met_.first, met_.second);
-    result.is_of_all = is_of_scene && !is_later && has_all_that_count();
+    if (has_contact && !scene_.groups().do_count(met_.first, met_.second))
+      throw Rejected("the contact is one of two bodies that ignore each other");
+    result.is_of_all = !is_later && has_all_that_count();
     result.is_whole = result.is_of_all && rest.empty();
     return result;
   }

@@ -155,8 +155,7 @@ def _refuse_stated_errors(scene: Scene) -> None:
         for key, value in body.exact_errors.given().items():
             raise InputError(
                 f"body {shorten(body.name)}: {key}: first_contact_enclosed obeys errors of motions "
-                f"only, got {shorten(value)}; leave it out, or state it by "
-                f"PosePath.with_place_error"
+                f"only, got {shorten(value)}; leave it out"
             )
 
 

@@ -39,13 +39,18 @@ def to_features(
         answers: intervals of contact, or of a distance (`Clearance.below`), and contacts.
         geometry: the body whose geometry an interval gets.
         dates: whether times are seconds since 1970-01-01T00:00:00Z, and become texts of dates,
-            rounded to microseconds.
+            rounded to microseconds. A scene with an epoch of its own is refused.
 
     Raises:
         InputError: if a value is neither, or the scene has no such body or date.
     """
     if geometry not in ("a", "b"):
         raise InputError(f"geometry: either a or b: {shorten(geometry)}")
+    if dates and scene.epoch is not None:
+        raise InputError(
+            "dates: times are taken as seconds since 1970-01-01T00:00:00Z, but time 0 of this "
+            f"scene is {shorten(scene.epoch)}; leave dates= out"
+        )
     features: list[dict[str, object]] = []
 
     def written(time: AlgebraicNumber) -> object:

@@ -153,11 +153,20 @@ class Selection:
         return selection
 
     def disjoint_groups(self) -> list[list[int]] | None:
-        """Return the groups of bodies if no body is in two different ones; None otherwise."""
-        different = {tuple(some) for some in self.members if len(some) > 1}
-        if sum(map(len, different)) > len({i for some in different for i in some}):
-            return None
-        return sorted(map(list, different))
+        """Return groups that ignore the same pairs, no body in two of them; None if there are none.
+
+        A group within another group adds nothing, and neither does an equal one.
+        """
+        found: list[list[int]] = []
+        group_of: dict[int, int] = {}  # of each body, the position of its group
+        for some in sorted(self.members, key=len, reverse=True):
+            owners = {group_of.get(i) for i in some}
+            if owners == {None}:
+                group_of.update(dict.fromkeys(some, len(found)))
+                found.append(sorted(some))
+            elif len(owners) > 1:  # it shares bodies with a group that has not all of its bodies
+                return None
+        return sorted(some for some in found if len(some) > 1)
 
     @cached_property
     def _named_set(self) -> frozenset[tuple[int, int]]:

@@ -210,6 +210,8 @@ def _stated(selection: Selection, count: int) -> tuple[Sequence[int], list[tuple
     if selection.named is not None:
         return alone, selection.named
     groups = selection.disjoint_groups()
+    if groups is None and not selection.of(combinations(alone, 2)):
+        return [count] * count, None  # no pair counts: as if all were in one group
     if groups is None:
         if count > MOST_WITH_OVERLAPPING_GROUPS:
             raise InputError(

@@ -84,6 +84,11 @@ class Scene:
         epoch: str | None = None,
     ) -> None:
         check_rounding()
+        if isinstance(bodies, Scene):
+            raise InputError(
+                "bodies: a scene is not a list of bodies, and its groups, units and epoch would be "
+                "lost; give scene.bodies"
+            )
         self.units, self.epoch = _units_and_epoch(units, epoch)
         self.lost: tuple[str, ...] = ()
         self.bodies: Sequence[Body] = tuple(bodies)

@@ -39,7 +39,10 @@ GRID = power_of_two(-20)
 
 
 def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
-    """Return a body with a new motion from a time on.
+    """Return a body with a new motion from a time on; it is known no better than before.
+
+    What is assumed of the old motion becomes an error that is stated of the body, unless the
+    caller gives a body, which states its own errors.
 
     Args:
         body: the body with its current motion.
@@ -57,7 +60,7 @@ def with_new_motion(body: Body, motion: Motion | Body, t: QQ) -> Body:
                 f"body {shorten(body.name)}: {shorten(new)} is not a motion of {shorten(body)}"
             )
     else:
-        new = body.with_motion(motion)
+        new = continued(body, motion)
     if _moves_on(body, new, t):
         return new
     for i, (p, q) in enumerate(zip(body.exact_at(t), new.exact_at(t), strict=True)):
@@ -129,7 +132,7 @@ def onward(
 
 
 def continued(body: Body, motion: Motion) -> Body:
-    """Return a body that goes on with the motion of `onward`, and is known no better than before.
+    """Return a body that goes on with another motion, and is known no better than before.
 
     What is assumed of its old motion, such as by `PosePath.with_place_error`, becomes an error that
     is stated of the body.

@@ -312,3 +312,32 @@ def test_shrinking_keeps_the_groups_that_a_failure_needs():
 
     assert len(smaller.bodies) == 2
     assert len(smaller.ignoring) == 1
+
+
+def test_a_scene_in_place_of_its_bodies_is_refused():
+    """Its groups would be lost: a and b, which touch at t = 1, ignore each other."""
+    scene = Scene(
+        [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(1, 0)])], ignoring=[("a", "b")]
+    )
+
+    with pytest.raises(InputError, match="give scene"):
+        Scene(scene, scene.time)
+
+
+@pytest.mark.parametrize(
+    "groups",
+    [
+        [("a", "b", "c")],
+        [("a", "b"), ("b", "c"), ("a", "c")],
+        [("a", "b", "c"), ("c", "b", "a")],
+        [("a", "b"), ("*",)],
+    ],
+)
+def test_certificates_of_equal_groups_are_equal(groups):
+    """The same three pairs are ignored, however that is written."""
+    bodies = [Body(name, [(0, 0), (1, 0), (0, 1)]) for name in "abc"]
+
+    lines = exactpt.certify(Scene(bodies, ignoring=groups)).text.split(b"\n")
+
+    assert b"ignoring 0 1 2" in lines
+    assert b"none" in lines

@@ -23,10 +23,12 @@ from exactpt import (
     Simulation,
     Spin,
     Translation,
+    contacts,
     first_contact_enclosed,
     onward,
     read_shapes,
     stop,
+    to_features,
     union,
     write_shapes,
 )
@@ -223,10 +225,11 @@ def test_a_second_bounce_adds_no_error_again():
     assert simulation.body("ball").place_error == Fraction(1, 10)
 
 
-def test_a_motion_that_a_caller_gives_brings_its_own_errors():
+def test_a_body_that_a_caller_gives_in_place_of_a_motion_brings_its_own_errors():
     simulation = Simulation(flying())
     list(simulation.run(until=1))
-    simulation.set_motion("ball", onward(simulation.body("ball"), 1, (0, 1)))
+    ball = simulation.body("ball")
+    simulation.set_motion("ball", ball.with_motion(onward(ball, 1, (0, 1))))
     assert simulation.body("ball").place_error == 0
 
 
@@ -415,3 +418,29 @@ def test_a_world_with_stated_errors_is_another_scene(tmp_path):
     world = World(tmp_path)
     assert StatedWorld(tmp_path).scene != world.scene
     assert replace(world, mover="b").moving.place_error == 0
+
+
+def test_a_new_motion_of_a_run_keeps_what_was_assumed_of_the_old_one():
+    """The place of the true body was known within 1, and is known no better by a new motion."""
+    path = PosePath([0, 9], [([0, 1], [0], [0])]).with_place_error(1)
+    probe = Body("probe", [(0, 0), (1, 0), (1, 1), (0, 1)], path)
+    wall = Body("wall", [(7, 0), (8, 0), (8, 1), (7, 1)])
+    simulation = Simulation(Scene([probe, wall], time=(0, 9)))
+    for _ in simulation.run(until=1):
+        pass
+
+    simulation.set_motion("probe", onward(simulation.body("probe"), 1, (1, 0)))
+
+    assert simulation.body("probe").place_error == 1
+
+
+def test_dates_of_a_scene_with_an_epoch_are_refused():
+    scene = Scene(
+        [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(3, 0)])],
+        time=(0, 9),
+        units={"time": "h"},
+        epoch="2026-01-01T00:00:00Z",
+    )
+
+    with pytest.raises(InputError, match="dates: times are taken as seconds"):
+        to_features(scene, contacts(scene), dates=True)
