@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Final, TypedDict, final
 
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
-from exactpt.kernel.doubles import Flags, Indices
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
 from exactpt.scene.groups import groups_given, members_of, names_of
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
-    pass
+    # It imports numpy, of which two straight bodies have no need.
+    from exactpt.kernel.doubles import Flags, Indices
 
 _NONE: Final[frozenset[int]] = frozenset()
 """The groups of a body in no group."""
