@@ -22,7 +22,6 @@ from typing import Final, NamedTuple
 from exactpt import proof_check, proof_scene
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel import budget
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -34,7 +33,7 @@ from exactpt.scene.written import to_json
 from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
-from fuzz.statics import audit_at
+from exactpt.testing import audit
 
 __all__ = ["Sample", "Soak", "table", "verdict"]
 
@@ -240,11 +239,7 @@ class Soak:
 
     def audit(self) -> None:
         """Compare the tiling with the static one; no two bodies overlap."""
-        kinetic = self.simulation.kinetic
-        following = None if kinetic is None else kinetic.next_number()
-        end = following or AlgebraicNumber(END)
-        if kinetic is not None and kinetic.now.compare(end) < 0:
-            audit_at(kinetic, rational_between(kinetic.now, end))
+        audit(self.simulation)
         if initial_touches(self._scene_now())[1]:
             raise AuditError("bodies overlap")
 

@@ -10,12 +10,12 @@ from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.testing.audits import run_and_audit
 from exactpt.tiling.start import tilings_for
 from fuzz.old_engine.compare import compared
 from fuzz.old_engine.process import old_engine
 from fuzz.proofs.checking import checker
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
 __all__ = [

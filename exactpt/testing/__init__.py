@@ -3,17 +3,21 @@
 `check` calls any function for the time of impact of two bodies, over families of hard
 questions (`FAMILIES`), and counts right, missed, invented, early, late and crashed; what
 it finds is shrunken, and becomes a pytest file. `assert_same_contact` compares one answer;
-`shrink` makes a scene smaller as long as something fails. `exactpt.testing.strategies` has what
-Hypothesis draws scenes from (pip install 'exactpt[testing]'), and `exactpt.testing.scenes` the
-families of scenes of ``exactpt generate``. docs/testing.md is the tutorial.
+`shrink` makes a scene smaller as long as something fails. `audit` compares the state of a run with
+the tiling built from nothing; `ending_at` ends a limit of time at a chosen look at the clock.
+`exactpt.testing.strategies` has what Hypothesis draws scenes from (pip install
+'exactpt[testing]'), and `exactpt.testing.scenes` the families of scenes of ``exactpt generate``.
+docs/testing.md is the tutorial.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from exactpt.testing.audits import audit
     from exactpt.testing.checking import Counterexample, Report, check
     from exactpt.testing.comparing import assert_same_contact
+    from exactpt.testing.ending import ending_at
     from exactpt.testing.families import FAMILIES, LINEAR, make_question
     from exactpt.testing.questions import Moving, Question
     from exactpt.testing.shrinking import shrink
@@ -30,7 +34,9 @@ __all__ = [
     "Table",
     "Truth",
     "assert_same_contact",
+    "audit",
     "check",
+    "ending_at",
     "make_question",
     "shrink",
     "truths",
@@ -41,6 +47,8 @@ _MODULE_OF: Final = {
     "Report": "checking",
     "check": "checking",
     "assert_same_contact": "comparing",
+    "audit": "audits",
+    "ending_at": "ending",
     "FAMILIES": "families",
     "LINEAR": "families",
     "make_question": "families",

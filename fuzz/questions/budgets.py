@@ -8,14 +8,13 @@ functions that it calls meanwhile, which is the same on each machine.
 from __future__ import annotations
 
 import sys
-import time as clock
 from random import Random
 from types import FrameType
 from typing import Final, final
-from unittest.mock import patch
 
 from exactpt import Body, BudgetExceeded, Contact, Pieces, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ, rational
+from exactpt.testing.ending import StandingClock, ending_at
 from exactpt.testing.scenes import generate
 from fuzz.awkward import awkward
 from fuzz.questions.scenes import crowded_scene
@@ -29,7 +28,7 @@ PLAIN: Final = ("convoy", "row", "small_grid", "linear_points", "piecewise_point
 TRIED: Final = 6
 """Number of looks at which the clock strikes, of a scene."""
 
-LATE: Final = 2
+LATE: Final = 1
 """Number of looks after the strike within which a search ends: loops within loops look too."""
 
 WITHOUT_A_LOOK: Final = 20_000
@@ -43,25 +42,21 @@ TIMES: Final = (QQ(1), QQ(1, 3), QQ(3, 7), QQ(5, 9), QQ(10, 13), QQ(3, 2))
 
 
 @final
-class _Clock:
-    """Stands still, and jumps by 1000 seconds at a look; it counts the looks."""
+class _Calls:
+    """Counts the calls of functions between two looks at a clock."""
 
-    def __init__(self, strikes: int | None = None) -> None:
-        self._strikes = strikes
-        self._calls = 0
-        self.looks = 0
-        self.most_calls = 0  # between two looks
-
-    def monotonic(self) -> float:
-        self.looks += 1
-        self._calls = 0
-        return 1000.0 if self._strikes is not None and self.looks > self._strikes else 0.0
+    def __init__(self, clock: StandingClock) -> None:
+        self._clock = clock
+        self._looks = self._calls = 0
+        self.most = 0  # between two looks
 
     def count(self, frame: FrameType, event: str, arg: object) -> None:  # noqa: ARG002
-        """Count the calls of functions: see `sys.setprofile`."""
+        """Count an event: see `sys.setprofile`."""
+        if self._looks != self._clock.looks:
+            self._looks, self._calls = self._clock.looks, 0
         if event == "call":
             self._calls += 1
-            self.most_calls = max(self.most_calls, self._calls)
+            self.most = max(self.most, self._calls)
 
 
 def wrong_at_the_end(random: Random) -> tuple[Scene, str, str | None]:
@@ -71,9 +66,10 @@ def wrong_at_the_end(random: Random) -> tuple[Scene, str, str | None]:
         return crowd, "a crowd", _without_a_look(crowd)
     scene = _scene(random)
     way = random.choice(["pairs", "pairs", "auto", *tilings_of(scene)])
-    whole = _Clock()
-    contact = _search(scene, way, whole)
-    for strikes in random.sample(range(1, whole.looks + 1), min(TRIED, whole.looks)):
+    with ending_at(None) as whole:
+        contact = _search(scene, way)
+    later = range(2, whole.looks + 1)  # at the first look the limit begins
+    for strikes in random.sample(later, min(TRIED, len(later))):
         fault = _wrong(scene, way, contact, strikes)
         if fault is not None:
             return scene, "wrong", f"{way}, struck at look {strikes} of {whole.looks}: {fault}"
@@ -82,41 +78,40 @@ def wrong_at_the_end(random: Random) -> tuple[Scene, str, str | None]:
 
 def _wrong(scene: Scene, way: str, contact: Contact | None, strikes: int) -> str | None:
     """Return the fault of a search whose clock strikes after some looks."""
-    struck = _Clock(strikes)
-    try:
-        _search(scene, way, struck)
-    except BudgetExceeded as spent:
-        reached = spent.reached
-        if struck.looks > strikes + LATE:
-            return f"it looks {struck.looks - strikes} times more"
-        if contact is None or reached is None:
-            return None
-        if contact.time.compare_rational(rational(reached)) <= 0:
-            return f"no contact until {reached}, but there is one at {contact.time}"
+    reached = None
+    with ending_at(strikes) as struck:
+        try:
+            _search(scene, way)
+        except BudgetExceeded as spent:
+            reached = spent.reached
+    if struck.looks_after > LATE:
+        return f"it looks {struck.looks_after} times more"
+    if contact is None or reached is None:
         return None
-    if struck.looks > strikes + LATE:
-        return f"it goes on, and looks {struck.looks - strikes} times more"
+    if contact.time.compare_rational(rational(reached)) <= 0:
+        return f"no contact until {reached}, but there is one at {contact.time}"
     return None
 
 
 def _without_a_look(scene: Scene) -> str | None:
     """Return a fault if a search goes on for too long without a look at the clock."""
-    clock_, before = _Clock(), sys.getprofile()
-    sys.setprofile(clock_.count)
-    try:
-        _search(scene, "pairs", clock_)
-    finally:
-        sys.setprofile(before)
-    if clock_.most_calls > WITHOUT_A_LOOK:
-        return f"{clock_.most_calls} calls of functions without a look at the clock"
+    before = sys.getprofile()
+    with ending_at(None) as clock:
+        calls = _Calls(clock)
+        sys.setprofile(calls.count)
+        try:
+            _search(scene, "pairs")
+        finally:
+            sys.setprofile(before)
+    if calls.most > WITHOUT_A_LOOK:
+        return f"{calls.most} calls of functions without a look at the clock"
     return None
 
 
-def _search(scene: Scene, way: str, clock_: _Clock) -> Contact | None:
-    with patch.object(clock, "monotonic", clock_.monotonic):
-        if way in ("auto", "pairs"):
-            return first_contact(scene, method=way, max_seconds=1.0)
-        return first_contact(scene, tiling=way, max_seconds=1.0)
+def _search(scene: Scene, way: str) -> Contact | None:
+    if way in ("auto", "pairs"):
+        return first_contact(scene, method=way, max_seconds=1.0)
+    return first_contact(scene, tiling=way, max_seconds=1.0)
 
 
 def _scene(random: Random) -> Scene:

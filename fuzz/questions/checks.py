@@ -28,6 +28,7 @@ from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.audits import audit_certificates
 from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.tiling.engine import Engine
@@ -56,7 +57,6 @@ from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touchi
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.soak import Soak
-from fuzz.statics import audit_certificates
 
 LIVING: Final = ("greedy", "lazy", "mixed")
 ACTIONS: Final = 40

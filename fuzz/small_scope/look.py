@@ -11,13 +11,13 @@ from exactpt import Contact, InputError, Scene, Simulation, first_contact, stop
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.pieces import linear_pieces
+from exactpt.testing.audits import run_and_audit
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
-from fuzz.statics import run_and_audit
 from fuzz.subdivided import subdivided
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 

@@ -7,7 +7,6 @@ the last double, and only some questions were asked.
 import math
 from fractions import Fraction
 from random import Random
-from unittest.mock import patch
 
 import pytest
 
@@ -22,11 +21,11 @@ from exactpt import (
 )
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import boxes
+from exactpt.testing import ending_at
 from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.awkward import SUFFIX, awkward, awkward_variant
 from fuzz.planted import PLANTED, Found, _edited, hunt, table
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.questions.budgets import _Clock
 from fuzz.subscene import scene_of
 from fuzz.variants import VARIANTS, difference, expected_time
 
@@ -150,12 +149,10 @@ def relay_of_three():
 
 def reached_at_each_look(scene):
     """What a search has reached, if its time is over at its first, second, ... look."""
-    whole = _Clock()
-    with patch("time.monotonic", whole.monotonic):
+    with ending_at(None) as whole:
         first_contact(scene, method="pairs", max_seconds=1.0)
     for look in range(1, whole.looks + 1):
-        struck = _Clock(look)
-        with patch("time.monotonic", struck.monotonic):
+        with ending_at(look):
             try:
                 first_contact(scene, method="pairs", max_seconds=1.0)
             except BudgetExceeded as spent:

@@ -12,13 +12,13 @@ from exactpt import AlgebraicNumber, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
+from exactpt.testing.audits import run_and_audit
 from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, generate
 from exactpt.tiling.start import TILINGS
 from fuzz import corpus
 from fuzz.cases import failure_of
 from fuzz.old_engine.build import is_built
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.statics import run_and_audit
 from fuzz.subscene import MOST, WHOLE, scene_of, subscene
 from fuzz.thin import SUFFIX
 from fuzz.variants import VARIANTS, difference, expected_time

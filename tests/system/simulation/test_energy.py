@@ -14,8 +14,8 @@ from benchmarks.living import WALLS, box
 from benchmarks.shapes import crowd
 from exactpt import Body, Bounce, Scene, Simulation, Velocity
 from exactpt.collision.driver import Driver
+from exactpt.testing.audits import audit_at
 from exactpt.tiling.start import TILINGS, start_tiling
-from fuzz.statics import audit_at
 
 ROOM = {
     "south": [(-1, -1), (51, -1), (51, 0), (-1, 0)],

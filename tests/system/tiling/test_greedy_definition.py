@@ -12,12 +12,12 @@ from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.audits import audit_at
 from exactpt.testing.scenes import CONVEX, FAMILIES, generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.start import make, plan_tiling
 from fuzz.corpus import files
-from fuzz.statics import audit_at
 
 SOME = ("convex", "mixed_shapes", "ballistic", "turning", "deforming")
 

@@ -13,9 +13,9 @@ from exactpt.motion.motions import Pieces, Rigid, Translation
 from exactpt.scene.scene import Scene
 from exactpt.simulation.motion_changes import onward
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing.audits import audit_at
 from exactpt.testing.scenes.shapes import convex_polygon
 from exactpt.testing.scenes.simple import star
-from fuzz.statics import audit_at
 
 
 def crowd(rng, count, *, stars=False, spacing=100, end=1000):

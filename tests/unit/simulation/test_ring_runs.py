@@ -5,9 +5,9 @@ import pytest
 from exactpt import Body, InputError, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.algebraic import rational_between
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID
+from exactpt.testing.audits import audit_at, run_and_audit
 from exactpt.testing.scenes import RINGS, generate
 from exactpt.tiling.start import TILINGS
-from fuzz.statics import audit_at, run_and_audit
 
 FRAME = [(0, 0), (12, 0), (12, 12), (0, 12)]
 HOLE = [(1, 1), (11, 1), (11, 11), (1, 11)]

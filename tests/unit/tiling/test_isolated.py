@@ -16,6 +16,7 @@ from exactpt.kernel.rounding import UNSURE
 from exactpt.motion.vertices import MOTION as AT_MOTION
 from exactpt.motion.vertices import OTHER_MOTION, WIDTH
 from exactpt.pairs.start import initial_touches
+from exactpt.testing.audits import audit_at, run_and_audit
 from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import tiling as tilings
 from exactpt.tiling.events import ContactFound
@@ -24,7 +25,6 @@ from exactpt.tiling.greedy.shadowed import ShadowRules
 from exactpt.tiling.isolated import DONE, LEFT, OPEN, IsolatedEvents
 from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.start import start_tiling
-from fuzz.statics import audit_at, run_and_audit
 
 pytestmark = pytest.mark.plain
 

@@ -6,11 +6,11 @@ import pytest
 from folding import every
 
 from exactpt.indices import NO_VERTEX
+from exactpt.testing.audits import run_and_audit
 from exactpt.testing.scenes import FAMILIES, POINTS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.incremental.mesh import mesh_of
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for
-from fuzz.statics import run_and_audit
 
 # At least 500 scenes, generic and degenerate (the slow run); some of each (the quick one).
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")

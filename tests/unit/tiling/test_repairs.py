@@ -10,6 +10,7 @@ from exactpt.certificates.perturbation import comes_first
 from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.testing.audits import run_and_audit
 from exactpt.testing.scenes import generate
 from exactpt.testing.scenes.shapes import box
 from exactpt.tiling.engine import Engine
@@ -19,7 +20,6 @@ from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
 from exactpt.tiling.simultaneous import FailureGroup
 from exactpt.tiling.start import TILINGS, start_tiling
-from fuzz.statics import run_and_audit
 
 
 def new_sign(certified, h):

@@ -5,8 +5,8 @@ import pytest
 from exactpt import Body, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.simulation.tile import tile_at
+from exactpt.testing.audits import audit_at, run_and_audit
 from exactpt.tiling.start import TILINGS
-from fuzz.statics import audit_at, run_and_audit
 
 
 def on(x, y):
