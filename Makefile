@@ -39,7 +39,7 @@ test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests 
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
 
 quick: $(VENV)/developing ## the tests that take milliseconds each: a minute on two cores
-	$(BIN)/python -m pytest -n 2 --quick tests/unit tests/api
+	$(BIN)/python -m pytest -n 2 --quick tests/unit tests/api tests/laws
 
 test-lowest: $(LOWEST)/installed ## all tests that need no CGAL, but the slow ones, on the lowest versions that pyproject.toml allows
 	$(LOWEST)/bin/python -m pytest -n $(JOBS)
@@ -117,6 +117,7 @@ pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and
 
 accept: $(VENV)/developing ## write what is derived anew (tables, pictures, digests, event logs), show the difference
 	$(BIN)/python docs/make_tables.py
+	$(BIN)/python -m fuzz costs
 	PYTHONPATH=. $(BIN)/python tests/system/testing/test_digests.py
 	PYTHONPATH=. $(BIN)/python tests/api/simulation/test_golden.py
 	$(MAKE) --no-print-directory pictures

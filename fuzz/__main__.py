@@ -17,6 +17,7 @@ from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
+from fuzz.laws.command import again, keep, record_costs, run
 from fuzz.members import members
 from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
@@ -70,6 +71,7 @@ def fuzz(
       python -m fuzz --cases 1000 --jobs 2
       python -m fuzz row grazing --witness reference --minutes 5
       python -m fuzz --witness old --cases 2000
+      python -m fuzz run tiling --seconds 600
       python -m fuzz battery
       python -m fuzz planted
       python -m fuzz small-scope
@@ -225,6 +227,10 @@ def run_soak(minutes: float, seed: int, tiling: str) -> None:
 
 
 COMMANDS = {
+    "run": run,
+    "again": again,
+    "keep": keep,
+    "costs": record_costs,
     "soak": run_soak,
     "hostile": hostile_files,
     "members": members,

@@ -1,0 +1,382 @@
+"""The registry of questions: each with the public ways to ask it, and its definition.
+
+An answer is a plain value in a normal form, so equal answers mean that two ways agree. What a way
+does not support it refuses with `LeftOutError`.
+"""
+
+from __future__ import annotations
+
+import json
+import pickle
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import isqrt
+from random import Random
+from typing import Any, Final, TypeAlias
+
+import exactpt
+from exactpt import (
+    AlgebraicNumber,
+    BudgetExceeded,
+    Contact,
+    ContactInterval,
+    InputError,
+    Scene,
+    Simulation,
+)
+from exactpt.kernel.numbers import QQ, fraction
+from fuzz.laws import definitions
+from fuzz.laws.law import refuse_unless
+from fuzz.witnesses import LeftOutError, tilings_of
+
+__all__ = ["QUESTIONS", "Answer", "Question", "a_time", "contact_kind", "contact_value",
+           "two_names"]  # fmt: skip
+
+Answer: TypeAlias = Any
+"""A plain value: numbers, texts, tuples, sets of these."""
+
+Asked: TypeAlias = Any
+"""What a question asks about besides the scene: a distance, a time, names of bodies; or None."""
+
+Way: TypeAlias = Callable[[Scene, Asked], Answer]
+
+TILINGS: Final = ("lazy", "greedy", "mixed", "incremental")
+
+DISTANCES: Final = (QQ(0), QQ(1, 3), QQ(1, 2), QQ(1), QQ(3, 2), QQ(2), QQ(10, 3))
+
+
+def _nothing(scene: Scene, random: Random) -> Asked:  # noqa: ARG001
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A question about scenes.
+
+    Attributes:
+        ways: the public ways to ask it; their answers are equal.
+        define: its definition, for small scenes.
+        kind: the outcome in a few words, of an answer.
+        draw: draws what is asked about besides the scene.
+    """
+
+    ways: dict[str, Way]
+    define: Way
+    kind: Callable[[Answer], str]
+    draw: Callable[[Scene, Random], Asked] = _nothing
+
+
+# What is asked about
+
+
+def a_time(scene: Scene, random: Random, steps: int = 8) -> QQ:
+    """Return the start, the end, or a multiple of a part of the time span."""
+    part = QQ(random.randint(0, steps), steps)
+    time: QQ = scene.exact_start + (scene.exact_end - scene.exact_start) * part
+    return time
+
+
+def two_names(scene: Scene, random: Random) -> tuple[str, str]:
+    """Return the names of two bodies of a scene.
+
+    Raises:
+        LeftOutError: if there is only one.
+    """
+    refuse_unless(len(scene.bodies) >= 2)
+    first, second = random.sample([body.name for body in scene.bodies], 2)
+    return first, second
+
+
+def _a_distance(scene: Scene, random: Random) -> QQ:  # noqa: ARG001
+    return random.choice(DISTANCES)
+
+
+# The first contact
+
+
+def contact_value(contact: Contact | None) -> Answer:
+    """Return the time, the kind, and the sets of pairs of a contact: all that a user sees."""
+    if contact is None:
+        return None
+    initial_pairs = frozenset(map(frozenset, contact.initial_pairs))
+    return contact.time, contact.kind, initial_pairs, contact.pairs
+
+
+def contact_kind(value: Answer) -> str:
+    """Return the outcome of a first contact in words."""
+    return "no contact" if value is None else str(value[1])
+
+
+def _by_tiling(name: str) -> Way:
+    def ask(scene: Scene, _: Asked) -> Answer:
+        refuse_unless(name in tilings_of(scene))
+        return contact_value(exactpt.first_contact(scene, tiling=name))
+
+    return ask
+
+
+def _by_simulation(scene: Scene, _: Asked) -> Answer:
+    names = tilings_of(scene)
+    refuse_unless(names)
+    tiling = names[scene.vertex_count % len(names)]
+    return contact_value(Simulation(scene, tiling=tiling).run_to_contact())
+
+
+def _read_again(scene: Scene, _: Asked) -> Answer:
+    text = json.dumps(scene.to_json())
+    return contact_value(exactpt.first_contact(Scene.from_json(json.loads(text))))
+
+
+def _of_a_pickle(scene: Scene, _: Asked) -> Answer:
+    return contact_value(exactpt.first_contact(pickle.loads(pickle.dumps(scene))))
+
+
+def _between_all_pairs(scene: Scene, _: Asked) -> Answer:
+    refuse_unless(not any(body.has_rings or body.keyframes for body in scene.bodies))
+    names = [body.name for body in scene.bodies]
+    contact = exactpt.first_contact(scene, between=list(combinations(names, 2)))
+    whole = exactpt.first_contact(scene)
+    if whole is not None and any(pair.body == pair.other for pair in whole.pairs):
+        raise LeftOutError  # a body touches itself, which no pair of two bodies does
+    return contact_value(contact)
+
+
+def _by_certificate(scene: Scene, _: Asked) -> Answer:
+    try:
+        return contact_value(exactpt.certify(scene).contact)
+    except (InputError, BudgetExceeded):
+        raise LeftOutError from None  # bodies, or a closeness, that no certificate is about yet
+
+
+def _by_proof(scene: Scene, _: Asked) -> Answer:
+    names = tilings_of(scene)
+    refuse_unless(names)
+    tiling = names[scene.vertex_count % len(names)]
+    return contact_value(exactpt.prove(scene, tiling=tiling).contact)
+
+
+FIRST_CONTACT: Final = Question(
+    ways={
+        "auto": lambda scene, _: contact_value(exactpt.first_contact(scene)),
+        "pairs": lambda scene, _: contact_value(exactpt.first_contact(scene, method="pairs")),
+        "exact": lambda scene, _: contact_value(
+            exactpt.first_contact(scene, method="pairs", exact_only=True)
+        ),
+        **{name: _by_tiling(name) for name in TILINGS},
+        "simulation": _by_simulation,
+        "read again": _read_again,
+        "pickle": _of_a_pickle,
+        "between": _between_all_pairs,
+        "certificate": _by_certificate,
+        "proof": _by_proof,
+    },
+    define=lambda scene, _: contact_value(definitions.first_contact(scene)),
+    kind=contact_kind,
+)
+
+
+# The intervals in which bodies touch
+
+
+def _by_pair(intervals: Iterable[ContactInterval]) -> Answer:
+    found: dict[tuple[str, str], list[tuple[AlgebraicNumber, AlgebraicNumber]]] = {}
+    for interval in intervals:
+        found.setdefault((interval.a, interval.b), []).append((interval.start, interval.end))
+    return found
+
+
+def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
+    return _by_pair(
+        interval
+        for a, b in combinations(scene.bodies, 2)
+        for interval in exactpt.contact_intervals(scene, a.name, b.name)
+    )
+
+
+def _defined_intervals(scene: Scene, _: Asked) -> Answer:
+    found = {}
+    start, end = scene.exact_start, scene.exact_end
+    for a, b in combinations(scene.bodies, 2):
+        reach = a.exact_radius + b.exact_radius
+        if reach:
+            intervals = definitions.intervals_within(a, b, start, end, reach**2)
+        else:
+            intervals = definitions.contact_intervals(a, b, start, end)
+        if intervals:
+            found[a.name, b.name] = intervals
+    return found
+
+
+def _intervals_kind(value: Answer) -> str:
+    intervals = [interval for some in value.values() for interval in some]
+    instants = sum(start == end for start, end in intervals)
+    return f"{min(len(intervals), 3)} intervals, {min(instants, 2)} of one instant"
+
+
+CONTACTS: Final = Question(
+    ways={
+        "contacts": lambda scene, _: _by_pair(exactpt.contacts(scene)),
+        "of two": _intervals_of_two,
+    },
+    define=_defined_intervals,
+    kind=_intervals_kind,
+)
+
+
+# The first time within a distance
+
+
+def _first_within(scene: Scene, distance: QQ) -> Answer:
+    found = exactpt.first_within(scene, distance=fraction(distance))
+    assert not isinstance(found, AlgebraicNumber)  # noqa: S101 - of two bodies alone
+    return None if found is None else (found.time, set(found.pairs))
+
+
+def _least(times: Iterable[tuple[AlgebraicNumber | None, tuple[str, str]]]) -> Answer:
+    """Return the least of some times, with the pairs of bodies that have it."""
+    some = [(time, names) for time, names in times if time is not None]
+    if not some:
+        return None
+    first = min(time for time, _ in some)
+    return first, {names for time, names in some if time == first}
+
+
+def _first_within_of_two(scene: Scene, distance: QQ) -> Answer:
+    times = []
+    for a, b in combinations(scene.bodies, 2):
+        time = exactpt.first_within(scene, a.name, b.name, fraction(distance))
+        assert not isinstance(time, exactpt.Approach)  # noqa: S101 - of all bodies alone
+        times.append((time, (a.name, b.name)))
+    return _least(times)
+
+
+def _defined_within(scene: Scene, distance: QQ) -> Answer:
+    times = []
+    for a, b in combinations(scene.bodies, 2):
+        reach = distance + a.exact_radius + b.exact_radius
+        time = definitions.first_within(a, b, scene.exact_start, scene.exact_end, reach**2)
+        times.append((time, (a.name, b.name)))
+    return _least(times)
+
+
+FIRST_WITHIN: Final = Question(
+    ways={"all": _first_within, "of two": _first_within_of_two},
+    define=_defined_within,
+    kind=lambda value: "never" if value is None else f"{min(len(value[1]), 3)} pairs",
+    draw=_a_distance,
+)
+
+
+# The distance at a time
+
+
+def _time_and_names(scene: Scene, random: Random) -> Asked:
+    return a_time(scene, random), two_names(scene, random)
+
+
+def _place(feature: Any) -> tuple[str, int]:  # noqa: ANN401 - not a public type
+    return ("v", feature.vertex) if feature.vertex is not None else ("e", feature.edge)
+
+
+def _distance(scene: Scene, asked: Asked) -> Answer:
+    time, (first, second) = asked
+    found = exactpt.distance(scene, first, second, at=fraction(time))
+    return found.core_squared, {(_place(f), _place(g)) for f, g in found.features}
+
+
+def _defined_distance(scene: Scene, asked: Asked) -> Answer:
+    time, (first, second) = asked
+    return definitions.nearest(scene.body(first), scene.body(second), time)
+
+
+DISTANCE: Final = Question(
+    ways={"distance": _distance},
+    define=_defined_distance,
+    kind=lambda value: f"{min(len(value[1]), 3)} pairs of features" if value[0] else "overlap",
+    draw=_time_and_names,
+)
+
+
+# The first new contact
+
+
+def _numbered(scene: Scene, pairs: Collection[exactpt.ContactPoint]) -> set[tuple[int, int]]:
+    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    ends = ((number[pair.body], number[pair.other]) for pair in pairs)
+    return {(min(i, j), max(i, j)) for i, j in ends}
+
+
+def _after_start(scene: Scene, _: Asked) -> Answer:
+    contact = exactpt.first_contact(scene, after_start=True)
+    return None if contact is None else (contact.time, _numbered(scene, contact.pairs))
+
+
+def _defined_new(scene: Scene, _: Asked) -> Answer:
+    refuse_unless(not scene.has_radius)
+    return definitions.first_new_contact(scene)
+
+
+NEW_CONTACT: Final = Question(
+    ways={"after start": _after_start},
+    define=_defined_new,
+    kind=lambda value: "none" if value is None else f"{min(len(value[1]), 3)} pairs of bodies",
+)
+
+
+# When bodies are within a distance
+
+
+def _names_and_distance(scene: Scene, random: Random) -> Asked:
+    """Draw two bodies and a distance, often the least one, so that it is reached at one time."""
+    first, second = two_names(scene, random)
+    distance = random.choice(DISTANCES)
+    if random.random() < 0.5:
+        least = _least_distance(scene, first, second)
+        if least is not None:
+            distance = least
+    return first, second, distance
+
+
+def _least_distance(scene: Scene, first: str, second: str) -> QQ | None:
+    """Return the least distance of two bodies; None if it is not rational."""
+    gap = exactpt.clearance(scene, first, second)
+    squared = gap.minimum.squared.simplified()
+    if not squared.is_rational:
+        return None
+    exact = Fraction(str(squared.exact_low))
+    root = Fraction(isqrt(exact.numerator), isqrt(exact.denominator))
+    return QQ(root.numerator, root.denominator) if root**2 == exact else None
+
+
+def _below(scene: Scene, asked: Asked) -> Answer:
+    first, second, distance = asked
+    gap = exactpt.clearance(scene, first, second)
+    return [(interval.start, interval.end) for interval in gap.below(fraction(distance))]
+
+
+def _defined_below(scene: Scene, asked: Asked) -> Answer:
+    first, second, distance = asked
+    a, b = scene.body(first), scene.body(second)
+    reach = distance + a.exact_radius + b.exact_radius
+    return definitions.intervals_within(a, b, scene.exact_start, scene.exact_end, reach**2)
+
+
+BELOW: Final = Question(
+    ways={"below": _below},
+    define=_defined_below,
+    kind=lambda value: f"{min(len(value), 3)} intervals",
+    draw=_names_and_distance,
+)
+
+
+QUESTIONS: Final[dict[str, Question]] = {
+    "first contact": FIRST_CONTACT,
+    "contacts": CONTACTS,
+    "first within": FIRST_WITHIN,
+    "distance": DISTANCE,
+    "new contact": NEW_CONTACT,
+    "below": BELOW,
+}
+"""The questions by name."""

@@ -1,0 +1,264 @@
+"""The runner of laws: cases by number, their outcomes, and faults in the smallest scene found."""
+
+from __future__ import annotations
+
+import json
+import time as clock
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import Random
+from typing import Final, NamedTuple
+
+from exactpt import InputError, Scene
+from exactpt.testing import shrink
+from fuzz.laws.scenes import drawn, made
+from fuzz.laws.table import LAWS
+from fuzz.limits import TooSlow, limit, signed
+from fuzz.witnesses import Difference, LeftOutError
+
+__all__ = ["TIERS", "Case", "Fault", "Looked", "Tally", "case_of", "cases_of", "count_of",
+           "look", "run_for", "shrunk"]  # fmt: skip
+
+PATIENCE: Final = 20.0
+"""Seconds of processor time after which a case counts as hanging."""
+
+COSTS: Final = Path(__file__).with_name("costs.json")
+"""Milliseconds of a case of each law, written by `make accept`."""
+
+TIERS: Final = {"quick": 30.0, "full": 240.0}
+"""Seconds of processor time of all laws, on the machine that wrote the costs."""
+
+USUAL: Final = 20.0
+"""Milliseconds of a case of a law without recorded costs."""
+
+NOT_ASKED: Final = "not asked"
+NO_SCENE: Final = "no such scene"
+TOO_LARGE: Final = "too large"
+SILENT: Final = (NOT_ASKED, NO_SCENE, TOO_LARGE)
+"""Outcomes of cases in which a law says nothing."""
+
+
+class Case(NamedTuple):
+    """A case, which is the same in every run.
+
+    Attributes:
+        law: the name of the law.
+        source: the source of the scene, with its changes.
+        seed, number: the seed of the run, and the number of the case in it.
+    """
+
+    law: str
+    source: str
+    seed: int
+    number: int
+
+    @property
+    def place(self) -> str:
+        """The case without its law."""
+        return f"{self.source}:{self.seed}:{self.number}"
+
+    def __str__(self) -> str:
+        return f"{self.law} {self.place}"
+
+    @classmethod
+    def parse(cls, text: str) -> Case:
+        """Return the case of a text, ``LAW SOURCE:SEED:NUMBER``.
+
+        Raises:
+            InputError: if the text is no case, or there is no such law.
+        """
+        law, _, place = text.rpartition(" ")
+        source, *numbers = place.rsplit(":", 2)
+        if law not in LAWS:
+            raise InputError(f"case: unknown law, got {law!r}; see python -m fuzz run --list")
+        try:
+            seed, number = map(int, numbers)
+        except ValueError:
+            wanted = "write it as LAW SOURCE:SEED:NUMBER"
+            raise InputError(f"case: not a place, got {place!r}; {wanted}") from None
+        return cls(law, source, seed, number)
+
+
+class Fault(NamedTuple):
+    """A broken law.
+
+    Attributes:
+        case: the case.
+        signature: the kind of the fault, the same for the same fault in another scene.
+        why: what is wrong, in words.
+        scene: the scene.
+        vertices: the number of vertices of the scene before it was shrunk.
+    """
+
+    case: Case
+    signature: str
+    why: str
+    scene: Scene
+    vertices: int
+
+    @property
+    def report(self) -> str:
+        """What a failing test prints: the fault, the commands, the scene."""
+        law, place = self.case.law, self.case.place
+        data = json.dumps(self.scene.to_json())
+        size = f"shrunk from {self.vertices} to {self.scene.vertex_count} vertices"
+        return "\n".join([
+            f"{law}: {self.why}",
+            f"  again: python -m fuzz again '{law}' '{place}'",
+            f"  keep:  python -m fuzz keep  '{law}' '{place}'      (writes tests/cases)",
+            f"  scene: {data}      {size}",
+        ])  # fmt: skip
+
+
+class Looked(NamedTuple):
+    """A checked case.
+
+    Attributes:
+        case: the case.
+        outcome: what the law said, in a few words; one of `SILENT` if it said nothing.
+        seconds: processor time.
+        fault: the fault; None if the law holds.
+    """
+
+    case: Case
+    outcome: str
+    seconds: float
+    fault: Fault | None = None
+
+    @property
+    def is_silent(self) -> bool:
+        """True if the law said nothing."""
+        return self.outcome in SILENT
+
+
+def case_of(law: str, seed: int, number: int) -> Case:
+    """Return the case of a number."""
+    source = drawn(LAWS[law].sources, f"{law} {seed}", number)
+    return Case(law, source, seed, number)
+
+
+def cases_of(law: str, seed: int, count: int) -> Iterator[Case]:
+    """Yield the first cases of a law."""
+    return (case_of(law, seed, number) for number in range(count))
+
+
+def look(case: Case, scene: Scene | None = None) -> Looked:
+    """Check a case.
+
+    Args:
+        case: the case.
+        scene: another scene for the same law and the same random choices; by default that of
+            the case.
+    """
+    began = clock.process_time()
+    law = LAWS[case.law]
+    if scene is None:
+        try:
+            scene = made(case.source, Random(f"scene {case}"))
+        except (InputError, TypeError, ValueError):
+            return Looked(case, NO_SCENE, clock.process_time() - began)
+    outcome, fault = TOO_LARGE, None
+    if law.most is None or scene.vertex_count <= law.most:
+        outcome, fault = _check(case, scene)
+    return Looked(case, outcome, clock.process_time() - began, fault)
+
+
+def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
+    """Return the outcome of a case, and its fault."""
+    try:
+        with limit(PATIENCE):
+            return LAWS[case.law].check(scene, Random(f"choices {case}")), None
+    except LeftOutError:
+        return NOT_ASKED, None
+    except Difference as difference:
+        signature, why = difference.kind, str(difference)
+    except TooSlow:
+        signature, why = "hangs", f"no answer within {PATIENCE:.0f} s of processor time"
+    except Exception as error:  # any exception is a finding
+        signature, why = signed(error)
+    return "fault", Fault(case, signature, why, scene, scene.vertex_count)
+
+
+def shrunk(fault: Fault, seconds: float) -> Fault:
+    """Return the same fault, of the same law and with the same signature, in a smaller scene."""
+
+    def fails(smaller: Scene) -> bool:
+        found = look(fault.case, smaller).fault
+        return found is not None and found.signature == fault.signature
+
+    scene = shrink(fault.scene, fails, seconds=seconds)
+    found = look(fault.case, scene).fault
+    return fault if found is None else found._replace(vertices=fault.vertices)
+
+
+def costs() -> dict[str, float]:
+    """Return the recorded milliseconds of a case of each law."""
+    recorded: dict[str, float] = json.loads(COSTS.read_text(encoding="utf-8"))
+    return recorded
+
+
+def count_of(law: str, tier: str) -> int:
+    """Return the number of cases of a law in a tier: the same on every machine."""
+    shares = sum(one.share for one in LAWS.values())
+    seconds = TIERS[tier] * LAWS[law].share / shares
+    return max(len(LAWS[law].sources), round(1000 * seconds / costs().get(law, USUAL)))
+
+
+def run_for(laws: Sequence[str], seed: int, seconds: float) -> Iterator[Looked]:
+    """Check cases of some laws in turn; that with the least time for its share is next."""
+    spent, numbers = dict.fromkeys(laws, 0.0), dict.fromkeys(laws, 0)
+    ends = clock.process_time() + seconds
+    while clock.process_time() < ends:
+        law = min(laws, key=lambda name: spent[name] / LAWS[name].share)
+        looked = look(case_of(law, seed, numbers[law]))
+        numbers[law] += 1
+        spent[law] += looked.seconds + 1e-4
+        yield looked
+
+
+@dataclass
+class Tally:
+    """Counts of the cases of each law, by outcome.
+
+    Attributes:
+        outcomes: by law, the number of cases with each outcome.
+        seconds: by law, the processor time.
+        faults: by law, the number of faults.
+    """
+
+    outcomes: dict[str, Counter[str]] = field(default_factory=dict)
+    seconds: Counter[str] = field(default_factory=Counter)
+    faults: Counter[str] = field(default_factory=Counter)
+
+    def add(self, looked: Looked) -> None:
+        """Count a case."""
+        law = looked.case.law
+        self.outcomes.setdefault(law, Counter())[looked.outcome] += 1
+        self.seconds[law] += looked.seconds
+        self.faults[law] += looked.fault is not None
+
+    def said(self, law: str) -> int:
+        """Return the number of cases about which a law said something."""
+        counted = self.outcomes.get(law, Counter())
+        return sum(n for outcome, n in counted.items() if outcome not in SILENT)
+
+    def milliseconds(self, law: str) -> float:
+        """Return the processor time of a case."""
+        return 1000 * self.seconds[law] / max(1, self.outcomes[law].total())
+
+    def table(self, laws: Iterable[str] | None = None) -> list[str]:
+        """Return one line for each law, with the shares of its outcomes."""
+        lines = [f"{'law':26}{'cases':>7}{'s':>8}{'ms':>7}{'faults':>8}  outcomes"]
+        for law in laws or self.outcomes:
+            counted = self.outcomes.get(law, Counter())
+            total = counted.total()
+            shares = ", ".join(
+                f"{outcome} {100 * n / total:.0f} %" for outcome, n in counted.most_common(6)
+            )
+            lines.append(
+                f"{law:26}{total:>7}{self.seconds[law]:>8.1f}{self.milliseconds(law):>7.1f}"
+                f"{self.faults[law]:>8}  {shares}"
+            )
+        return lines

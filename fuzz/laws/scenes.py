@@ -1,0 +1,152 @@
+"""The registry of scenes: every source by name, each a function from random choices to a scene.
+
+The name of a source may be followed by changes (`fuzz.laws.changes`): ``tiny/pair+awkward+nudged``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
+from random import Random
+from typing import Final, TypeAlias
+from zlib import crc32
+
+from exactpt import Body, Scene, Translation
+from exactpt.testing import FAMILIES as PAIRS
+from exactpt.testing import make_question
+from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
+from fuzz import corpus
+from fuzz.laws.changes import CHANGES, changed
+from fuzz.questions.rounded import rounded_pair
+from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.spinning import spinning_scene
+from fuzz.questions.tiny import pair_scene, touching_scene
+from fuzz.small_scope.scope import planned
+from fuzz.subscene import scene_of
+
+__all__ = ["KINDS", "SOURCES", "drawn", "made", "names_of"]
+
+Source: TypeAlias = Callable[[Random], Scene]
+
+SEEDS: Final = 10**6
+"""Number of seeds of a family."""
+
+SHAPES: Final = (
+    [(0, 0)],
+    [(0, 0), (1, 0)],
+    [(0, 0), (2, 0), (0, 2)],
+    [(0, 0), (2, 0), (2, 2), (0, 2)],
+)
+DENOMINATORS: Final = (3, 7, 9, 13)
+CROWDS: Final = ("convex", "row", "convoy", "small_grid")
+
+
+def _of_family(name: str) -> Source:
+    return lambda random: scene_of(name, random.randrange(SEEDS))
+
+
+def _of_pair(name: str) -> Source:
+    return lambda random: make_question(name, random.randrange(SEEDS)).scene
+
+
+def fractions_scene(random: Random) -> Scene:
+    """Return two or three small shapes with places and velocities in thirds, sevenths, ..."""
+    denominator = random.choice(DENOMINATORS)
+
+    def number(most: int) -> Fraction:
+        return Fraction(random.randint(-most * denominator, most * denominator), denominator)
+
+    bodies = []
+    for i in range(random.choice([2, 3, 3])):
+        x, y = number(4), number(4)
+        shape = [(x + u, y + v) for u, v in random.choice(SHAPES)]
+        bodies.append(Body(f"b{i}", shape, Translation([0, number(2)], [0, number(2)])))
+    return Scene(bodies, time=(0, 3))
+
+
+def _of_scope(random: Random) -> Scene:
+    return planned(random.randrange(SEEDS)).scene
+
+
+def _of_corpus(random: Random) -> Scene:
+    return Scene.load(random.choice(corpus.files()))
+
+
+def _crowd(random: Random) -> Scene:
+    return generate(random.choice(CROWDS), random.randrange(SEEDS))
+
+
+SOURCES: Final[dict[str, Source]] = {
+    **{f"family/{name}": _of_family(name) for name in EVERY if name not in SPINNING},
+    **{f"pair/{name}": _of_pair(name) for name in PAIRS},
+    "tiny/pair": pair_scene,
+    "tiny/touching": touching_scene,
+    "tiny/distant": distant_scene,
+    "tiny/crowded": crowded_scene,
+    "tiny/meeting": meeting_scene,
+    "tiny/rounded": rounded_pair,
+    "tiny/fractions": fractions_scene,
+    "scope": _of_scope,
+    "corpus": _of_corpus,
+    "whole": _crowd,
+    "spinning": spinning_scene,
+}
+"""Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
+of the small scope, and scenes of faults of the past; whole scenes of many bodies; bodies that turn
+at a constant rate. A new family is a new row here, and all laws take it."""
+
+KINDS: Final[dict[str, tuple[str, ...]]] = {
+    "turning": ("turning", "turning_stars", "turning_points", "rolling_discs"),
+    "deforming": ("deforming", "keyframed"),
+    "curved": ("ballistic", "ballistic_points", "parabola_points"),
+    "pieces": ("pieces", "piecewise_points", "rounded_motions"),
+    "points": tuple(CATALOGUE["points"]),
+    "radii": tuple(CATALOGUE["rounded"]),
+    "rings": (*CATALOGUE["rings"], *CATALOGUE["touching"]),
+}
+"""Families by kind of motion or of body: a law that names a kind gives it a share of its own,
+however many families there are of it."""
+
+
+@cache
+def names_of(pattern: str) -> tuple[str, ...]:
+    """Return the sources that a pattern names: "tiny", "family", "turning", "tiny/pair+awkward".
+
+    Raises:
+        KeyError: if there is none, or a change of that name does not exist.
+    """
+    head, *changes = pattern.split("+")
+    for change in changes:
+        CHANGES[change]
+    if head in KINDS:
+        names = [f"family/{name}" for name in KINDS[head]]
+    else:
+        names = [name for name in SOURCES if name == head or name.startswith(f"{head}/")]
+    if not names:
+        raise KeyError(pattern)
+    return tuple("+".join([name, *changes]) for name in names)
+
+
+def made(source: str, random: Random) -> Scene:
+    """Return a scene of a source, with its changes.
+
+    Raises:
+        InputError, TypeError, ValueError: if a change is not possible for the scene.
+    """
+    name, *changes = source.split("+")
+    return changed(SOURCES[name](random), changes, random)
+
+
+def drawn(patterns: tuple[str, ...], lot: str, number: int) -> str:
+    """Return the source of the case of a number: the patterns take turns.
+
+    Within a pattern the highest hash of a source and the lot wins (rendezvous hashing). So a new
+    source takes a few cases over, and leaves all others as they are.
+    """
+    group = names_of(patterns[number % len(patterns)])
+
+    def weight(name: str) -> int:
+        return crc32(f"{lot} {number} {name}".encode())
+
+    return max(group, key=weight)

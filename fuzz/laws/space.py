@@ -1,0 +1,101 @@
+"""Laws about the free space: places, rays, segments, hulls and shortest paths, by definition."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from random import Random
+from typing import Any, Final
+
+import exactpt
+from exactpt import FreeSpace, Scene, Simulation, UnreachableError
+from exactpt.kernel.numbers import QQ, fraction
+from fuzz.laws.definitions import VisibilityGraph, brute, length_of
+from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.tilings import a_tiling
+from fuzz.questions.brute import Places, Point
+from fuzz.questions.free_space import some_point
+from fuzz.witnesses import Difference
+
+__all__ = ["paths_are_shortest", "places_are_as_defined"]
+
+POINTS: Final = 6
+"""Number of points in a case about places."""
+
+PATHS: Final = 2
+"""Number of paths in a case about paths."""
+
+PRECISION: Final = 2**480
+"""Lengths are compared up to this part of them."""
+
+
+def _a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
+    """Return the free space at the start, or at a time of the run, and the bodies there."""
+    contact = exactpt.first_contact(scene)
+    refuse_unless(contact is None or contact.kind != "initial")
+    simulation = Simulation(scene, tiling=a_tiling(scene, random))
+    span = scene.exact_end - scene.exact_start
+    time = scene.exact_start + span * QQ(random.choice([0, 0, 0, 1, 2, 3]), 8)
+    refuse_unless(contact is None or contact.time.compare_rational(time) > 0)
+    for _ in simulation.run(until=fraction(time)):
+        pass
+    return simulation.space(at=fraction(time)), brute.points_of(scene, fraction(time))
+
+
+def places_are_as_defined(scene: Scene, random: Random) -> str:
+    """Places, rays, free segments and the hull are those found by looking at all edges."""
+    space, bodies = _a_space(scene, random)
+    points = [some_point(random, bodies) for _ in range(POINTS)]
+    for p, q in pairwise(points):
+        place, owner = space.locate(p), brute.owner(p, bodies)
+        found = place.body, place.vertex, place.edge
+        check_equal(f"the place of {p}", found, owner or (None, None, None))
+        if p != q:
+            _check_ray(space, bodies, p, q)
+    hull = [bodies[body][vertex] for body, vertex in space.hull()]
+    corners = brute.convex_hull([p for points in bodies.values() for p in points])
+    if not set(corners) <= set(hull):
+        raise Difference("hull", f"{hull}, without {set(corners) - set(hull)}")
+    return "at the start" if space.at == scene.start else "later"
+
+
+def _check_ray(space: FreeSpace, bodies: Places, p: Point, q: Point) -> None:
+    direction = q[0] - p[0], q[1] - p[1]
+    hit, expected = space.ray_cast(p, direction), brute.first_hit(p, direction, bodies)
+    found = None if hit is None else (hit.at, hit.body, hit.vertex, hit.edge)
+    if found != expected:
+        raise Difference("ray", f"from {p} to {q}: {found}, not {expected}")
+    is_free = expected is None or expected[0] > 1
+    if space.is_free(p, q) != is_free:
+        raise Difference("segment", f"from {p} to {q} is {'' if is_free else 'not '}free")
+
+
+def paths_are_shortest(scene: Scene, random: Random) -> str:
+    """Shortest paths are as long as those in the visibility graph, from both ends."""
+    space, bodies = _a_space(scene, random)
+    outcome = "no path"
+    for _ in range(PATHS):
+        p, q = some_point(random, bodies), some_point(random, bodies)
+        if _is_inside(p, bodies) or _is_inside(q, bodies):
+            continue
+        expected = VisibilityGraph(bodies, p, q).shortest(p, q)
+        for start, goal in ((p, q), (q, p)):
+            found = _length(space, start, goal)
+            if (found is None) != (expected is None) or (
+                expected is not None and abs(found - expected) > expected / PRECISION
+            ):
+                raise Difference("path", f"from {start} to {goal}: {found}, not {expected}")
+        outcome = "unreachable" if expected is None else "a path"
+    return outcome
+
+
+def _length(space: FreeSpace, start: Point, goal: Point) -> Any:  # noqa: ANN401 - of mpmath
+    try:
+        return length_of(space.shortest_path(start, goal).points)
+    except UnreachableError:
+        return None
+
+
+def _is_inside(point: Point, bodies: Places) -> bool:
+    """Return True if a point is in the interior of a body."""
+    owner = brute.owner(point, bodies)
+    return owner is not None and owner[1:] == (None, None)

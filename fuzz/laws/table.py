@@ -1,0 +1,106 @@
+"""The table of laws: what holds, in which scenes, and its share of the time."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from fuzz.laws.agreement import as_defined, two_ways_agree
+from fuzz.laws.distances import clearance_is_the_distance
+from fuzz.laws.images import first_contact_of_image, pairs_of_image
+from fuzz.laws.law import Law
+from fuzz.laws.limits import ended_search_is_true
+from fuzz.laws.proofs import certificates_are_accepted
+from fuzz.laws.runs import living_run_is_static, restored_run_goes_on
+from fuzz.laws.space import paths_are_shortest, places_are_as_defined
+from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
+from fuzz.laws.together import arrays_are_single_calls, batch_is_single_calls
+
+__all__ = ["LAWS"]
+
+MOVING: Final = ("turning", "deforming", "curved", "pieces")
+TINY: Final = ("tiny/pair", "tiny/touching", "tiny/meeting", "tiny/fractions", "scope")
+CLOSE: Final = ("tiny/pair+awkward", "tiny/meeting+awkward", "tiny/fractions", "pair",
+                "pair+awkward", "pair+nudged", "tiny/pair+nudged")  # fmt: skip
+FAMILY: Final = ("family", "family+awkward", "family+thin")
+
+LAWS: Final[dict[str, Law]] = {
+    "first contact/reference": Law(
+        as_defined("first contact", several=4),
+        (*TINY, *CLOSE, "tiny/rounded", "corpus"),
+        share=4,
+        most=30,
+    ),
+    "first contact/methods": Law(
+        two_ways_agree("first contact"),
+        (*FAMILY, *CLOSE, "corpus", "radii", "rings"),
+        share=3,
+    ),
+    "first contact/images": Law(
+        first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
+    ),
+    "tiling/static": Law(
+        kinetic_is_static, (*FAMILY, "tiny/fractions", "scope", "corpus"), share=4
+    ),
+    "tiling/filters": Law(
+        filters_decide_exactly, (*FAMILY, "family+nudged", "tiny/fractions"), share=2
+    ),
+    "contacts/reference": Law(
+        as_defined("contacts"),
+        ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),
+        share=1.5,
+        most=14,
+    ),
+    "pairs/images": Law(
+        pairs_of_image, ("family", *MOVING, "pair", "tiny/distant", "pair+nudged"), share=1.5
+    ),
+    "first within/reference": Law(
+        as_defined("first within"),
+        ("tiny/distant", "tiny/crowded", "tiny/rounded", "tiny/distant+nudged"),
+        most=14,
+    ),
+    "distance/reference": Law(
+        as_defined("distance"),
+        ("tiny/distant", "tiny/distant+awkward+nudged", "pair+awkward+nudged", "family+awkward"),
+        share=1.5,
+        most=40,
+    ),
+    "distance/below": Law(
+        as_defined("below"), ("tiny/distant", "tiny/pair", "tiny/distant+awkward"), most=10
+    ),
+    "distance/clearance": Law(
+        clearance_is_the_distance,
+        (*MOVING, "family", "pair+nudged", "tiny/distant"),
+        most=60,
+    ),
+    "new contact/reference": Law(
+        as_defined("new contact"), ("tiny/touching", "tiny/meeting"), most=14
+    ),
+    "space/places": Law(
+        places_are_as_defined,
+        ("family", "family+awkward", "tiny/touching", "pair"),
+        share=1.5,
+        most=40,
+    ),
+    "space/paths": Law(paths_are_shortest, ("family", "tiny/touching", "pair"), most=16),
+    "simulation/restored": Law(restored_run_goes_on, ("family", "tiny/meeting", "pair"), most=40),
+    "simulation/living": Law(living_run_is_static, ("tiny/pair",)),
+    "batch/single": Law(
+        batch_is_single_calls,
+        ("pair", "pair+rounded", "tiny/pair+rounded", "family", "turning", "turning+rounded"),
+        most=60,
+    ),
+    "arrays/single": Law(
+        arrays_are_single_calls,
+        ("pair", "pair+rounded", "family", "family+rounded", "radii+rounded"),
+        most=90,
+    ),
+    "certificate/checked": Law(
+        certificates_are_accepted, ("family", "tiny/pair", "pair+awkward", "scope"), most=30
+    ),
+    "budget/true": Law(
+        ended_search_is_true,
+        ("tiny/crowded", "pair", "family", "tiny/fractions", "whole"),
+        most=400,
+    ),
+}
+"""The laws by name: the question, and what it is compared with."""
