@@ -18,6 +18,7 @@ from fuzz.cases import QUESTION, Scenes
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.laws.command import again, keep, record_costs, run
+from fuzz.laws.power import power
 from fuzz.members import members
 from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
@@ -231,6 +232,7 @@ COMMANDS = {
     "again": again,
     "keep": keep,
     "costs": record_costs,
+    "power": power,
     "soak": run_soak,
     "hostile": hostile_files,
     "members": members,

@@ -45,7 +45,7 @@ def nudged(scene: Scene, random: Random) -> Scene:
     count = min(len(places), random.choice([1, 1, 2]))
     for container, key in random.sample(places, count):
         number = Fraction(container[key])
-        size = max(abs(number), 1)
+        size = max(abs(number), Fraction(1))
         part = Fraction(random.choice([1, -1]), random.choice([1, 3]))
         container[key] = str(number + size * part / 2 ** random.choice(SMALL_STEPS))
     return Scene.from_json(data)

@@ -25,6 +25,7 @@ from fuzz.laws.runner import (
     count_of,
     look,
     run_for,
+    runnable,
     shrunk,
 )
 from fuzz.laws.table import LAWS
@@ -90,6 +91,10 @@ def run(
     if is_list:
         click.echo("\n".join(f"{law:26}{LAWS[law].meaning}" for law in laws))
         return
+    for law in laws:
+        if not LAWS[law].is_runnable:
+            click.echo(f"{law} is left out: {LAWS[law].needs} is not built")
+    laws = runnable(laws)
     seed = _today() if seed is None else seed
     click.echo(f"{len(laws)} laws, seed {seed}")
     if tier is None:
@@ -175,10 +180,11 @@ def record_costs(seconds: float) -> None:
     A cost that is about the recorded one stays as it is, so that the file changes little.
     """
     tally = Tally()
-    for looked in run_for(list(LAWS), 0, seconds):
+    for looked in run_for(runnable(LAWS), 0, seconds):
         tally.add(looked)
     before = costs()
-    found = {law: _cost(before.get(law), tally.milliseconds(law)) for law in LAWS}
+    found = {law: _cost(before.get(law), tally.milliseconds(law)) for law in tally.outcomes}
+    found = {law: cost for law, cost in (before | found).items() if law in LAWS}
     write_atomically(COSTS, json.dumps(found, indent=1) + "\n")
     click.echo("\n".join(tally.table()))
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from exactpt import Scene
+from exactpt.cgal import find_program
+from exactpt.errors import InputError
+from fuzz.old_engine.build import is_built
 from fuzz.witnesses import Difference, LeftOutError
 
 __all__ = ["Check", "Law", "check_equal", "refuse_unless"]
@@ -21,6 +24,18 @@ the same one compares little.
 """
 
 
+def _has_cgal() -> bool:
+    try:
+        find_program()
+    except InputError:
+        return False
+    return True
+
+
+PROGRAMS: Final[dict[str, Callable[[], bool]]] = {"cgal": _has_cgal, "old engine": is_built}
+"""Other programs that laws run: whether each of them is built."""
+
+
 @dataclass(frozen=True, slots=True)
 class Law:
     """A row: what holds, in which scenes, and its share of the time.
@@ -30,14 +45,19 @@ class Law:
         sources: patterns of names of sources (`fuzz.laws.scenes.names_of`), taken in turn.
         share: its share of the time, relative to the other laws.
         most: maximum number of vertices of a scene; None for no limit.
-        needs_cgal: whether the program cgal_check must be built.
+        needs: the other program that it runs, of `PROGRAMS`; "" for none.
     """
 
     check: Check
     sources: tuple[str, ...]
     share: float = 1.0
     most: int | None = None
-    needs_cgal: bool = False
+    needs: str = ""
+
+    @property
+    def is_runnable(self) -> bool:
+        """False if it needs a program that is not built."""
+        return not self.needs or PROGRAMS[self.needs]()
 
     @property
     def meaning(self) -> str:

@@ -19,7 +19,7 @@ from fuzz.limits import TooSlow, limit, signed
 from fuzz.witnesses import Difference, LeftOutError
 
 __all__ = ["TIERS", "Case", "Fault", "Looked", "Tally", "case_of", "cases_of", "count_of",
-           "look", "run_for", "shrunk"]  # fmt: skip
+           "look", "run_for", "runnable", "shrunk"]  # fmt: skip
 
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a case counts as hanging."""
@@ -183,6 +183,8 @@ def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
 
 def shrunk(fault: Fault, seconds: float) -> Fault:
     """Return the same fault, of the same law and with the same signature, in a smaller scene."""
+    if not fault.scene.bodies:
+        return fault  # a law that draws its own cases
 
     def fails(smaller: Scene) -> bool:
         found = look(fault.case, smaller).fault
@@ -204,6 +206,11 @@ def count_of(law: str, tier: str) -> int:
     shares = sum(one.share for one in LAWS.values())
     seconds = TIERS[tier] * LAWS[law].share / shares
     return max(len(LAWS[law].sources), round(1000 * seconds / costs().get(law, USUAL)))
+
+
+def runnable(laws: Iterable[str]) -> list[str]:
+    """Return those of some laws whose programs are built."""
+    return [law for law in laws if LAWS[law].is_runnable]
 
 
 def run_for(laws: Sequence[str], seed: int, seconds: float) -> Iterator[Looked]:
@@ -229,14 +236,14 @@ class Tally:
     """
 
     outcomes: dict[str, Counter[str]] = field(default_factory=dict)
-    seconds: Counter[str] = field(default_factory=Counter)
+    seconds: dict[str, float] = field(default_factory=dict)
     faults: Counter[str] = field(default_factory=Counter)
 
     def add(self, looked: Looked) -> None:
         """Count a case."""
         law = looked.case.law
         self.outcomes.setdefault(law, Counter())[looked.outcome] += 1
-        self.seconds[law] += looked.seconds
+        self.seconds[law] = self.seconds.get(law, 0.0) + looked.seconds
         self.faults[law] += looked.fault is not None
 
     def said(self, law: str) -> int:

@@ -18,10 +18,14 @@ from exactpt.testing import make_question
 from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
 from fuzz import corpus
 from fuzz.laws.changes import CHANGES, changed
+from fuzz.questions.batched import touching_while_turning
+from fuzz.questions.budgets import relay
+from fuzz.questions.convoys import convoy
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
-from fuzz.questions.spinning import spinning_scene
+from fuzz.questions.spinning import path_scene, spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
+from fuzz.questions.touching_rings import touching_pair
 from fuzz.small_scope.scope import planned
 from fuzz.subscene import scene_of
 
@@ -73,6 +77,10 @@ def _of_corpus(random: Random) -> Scene:
     return Scene.load(random.choice(corpus.files()))
 
 
+def _nothing(random: Random) -> Scene:  # noqa: ARG001
+    return Scene([])
+
+
 def _crowd(random: Random) -> Scene:
     return generate(random.choice(CROWDS), random.randrange(SEEDS))
 
@@ -87,14 +95,22 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/meeting": meeting_scene,
     "tiny/rounded": rounded_pair,
     "tiny/fractions": fractions_scene,
+    "tiny/rings": touching_pair,
+    "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     "corpus": _of_corpus,
     "whole": _crowd,
+    "far/relay": relay,
+    "far/convoy": convoy,
     "spinning": spinning_scene,
+    "poses": path_scene,
+    "own": _nothing,
 }
 """Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
-of the small scope, and scenes of faults of the past; whole scenes of many bodies; bodies that turn
-at a constant rate. A new family is a new row here, and all laws take it."""
+of the small scope, and scenes of faults of the past; whole scenes of many bodies; contacts at the
+last double before bodies turn back, and far from the origin; bodies that turn at a constant rate or
+along poses; no bodies, for laws that draw their own cases. A new family is a new row here, and all
+laws take it."""
 
 KINDS: Final[dict[str, tuple[str, ...]]] = {
     "turning": ("turning", "turning_stars", "turning_points", "rolling_discs"),

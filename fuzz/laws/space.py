@@ -30,6 +30,7 @@ PRECISION: Final = 2**480
 
 def _a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
     """Return the free space at the start, or at a time of the run, and the bodies there."""
+    refuse_unless(scene.bodies)
     contact = exactpt.first_contact(scene)
     refuse_unless(contact is None or contact.kind != "initial")
     simulation = Simulation(scene, tiling=a_tiling(scene, random))

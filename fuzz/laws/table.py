@@ -5,15 +5,37 @@ from __future__ import annotations
 from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree
+from fuzz.laws.choices import choices_are_each_pair_alone
 from fuzz.laws.distances import clearance_is_the_distance
+from fuzz.laws.drawn import (
+    curves_are_within_their_errors,
+    drawings_have_their_parts,
+    filters_say_what_is_true,
+    hostile_files_are_refused,
+    queries_in_space_are_as_defined,
+    stated_errors_are_kept,
+    touching_rings_are_valid_or_not,
+)
+from fuzz.laws.enclosed import bounds_contain_the_truth
+from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_written
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
 from fuzz.laws.proofs import certificates_are_accepted
-from fuzz.laws.runs import living_run_is_static, restored_run_goes_on
+from fuzz.laws.runs import (
+    bounces_are_first_contacts,
+    living_run_is_static,
+    population_is_a_new_scene,
+    restored_run_goes_on,
+)
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
 from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
-from fuzz.laws.together import arrays_are_single_calls, batch_is_single_calls
+from fuzz.laws.together import (
+    array_queries_are_first_contacts,
+    arrays_are_single_calls,
+    batch_is_single_calls,
+)
+from fuzz.laws.witnessed import cgal_accepts_runs, definitions_agree, old_engine_agrees
 
 __all__ = ["LAWS"]
 
@@ -32,7 +54,7 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "first contact/methods": Law(
         two_ways_agree("first contact"),
-        (*FAMILY, *CLOSE, "corpus", "radii", "rings"),
+        (*FAMILY, *CLOSE, "corpus", "radii", "rings", "tiny/rings", "far"),
         share=3,
     ),
     "first contact/images": Law(
@@ -86,7 +108,15 @@ LAWS: Final[dict[str, Law]] = {
     "simulation/living": Law(living_run_is_static, ("tiny/pair",)),
     "batch/single": Law(
         batch_is_single_calls,
-        ("pair", "pair+rounded", "tiny/pair+rounded", "family", "turning", "turning+rounded"),
+        (
+            "pair",
+            "pair+rounded",
+            "tiny/pair+rounded",
+            "family",
+            "turning",
+            "turning+rounded",
+            "tiny/turned",
+        ),
         most=60,
     ),
     "arrays/single": Law(
@@ -99,8 +129,66 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "budget/true": Law(
         ended_search_is_true,
-        ("tiny/crowded", "pair", "family", "tiny/fractions", "whole"),
+        (
+            "tiny/crowded",
+            "pair",
+            "family",
+            "tiny/fractions",
+            "whole",
+            "far/relay",
+            "far/relay+awkward",
+        ),
         most=400,
+    ),
+    "first contact/choices": Law(
+        choices_are_each_pair_alone,
+        ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
+        most=24,
+    ),
+    "reference/reference": Law(
+        definitions_agree,
+        ("tiny/pair", "tiny/meeting", "tiny/rounded", "tiny/fractions", "tiny/pair+nudged"),
+        share=0.5,
+        most=12,
+    ),
+    "enclosed/spins": Law(bounds_contain_the_truth, ("spinning",), most=60),
+    "enclosed/poses": Law(bounds_contain_the_truth, ("poses",)),
+    "enclosed/errors": Law(stated_errors_are_kept, ("own",)),
+    "enclosed/curves": Law(curves_are_within_their_errors, ("own",), share=0.5),
+    "simulation/bounces": Law(
+        bounces_are_first_contacts, ("pair", "tiny/fractions", "tiny/crowded", "family"), most=24
+    ),
+    "simulation/population": Law(
+        population_is_a_new_scene,
+        ("family", "tiny/crowded", "tiny/fractions", "family+awkward"),
+        most=30,
+    ),
+    "arrays/queries": Law(
+        array_queries_are_first_contacts,
+        ("pair", "tiny/pair", "pair+rounded", "tiny/pair+rounded", "family/chains_on_grid"),
+        most=60,
+    ),
+    "exchange/scenes": Law(
+        scene_is_read_as_written,
+        ("family", "tiny/pair+awkward", "radii", "rings", "spinning", "poses", "tiny/rings"),
+        share=0.5,
+    ),
+    "exchange/results": Law(
+        results_survive_a_pickle, ("tiny/pair", "pair", "tiny/meeting+awkward"), share=0.5
+    ),
+    "exchange/hostile files": Law(hostile_files_are_refused, ("own",)),
+    "exchange/drawings": Law(drawings_have_their_parts, ("own",), share=0.5),
+    "scene/touching rings": Law(touching_rings_are_valid_or_not, ("own",), share=0.5),
+    "filters/adversary": Law(filters_say_what_is_true, ("own",)),
+    "space queries/reference": Law(queries_in_space_are_as_defined, ("own",), share=0.5),
+    "tiling/cgal": Law(
+        cgal_accepts_runs, ("family", "scope", "tiny/fractions"), most=40, needs="cgal"
+    ),
+    "old engine/same": Law(
+        old_engine_agrees,
+        ("family", "pair+nudged", "tiny/pair+awkward"),
+        most=60,
+        needs="old engine",
     ),
 }
 """The laws by name: the question, and what it is compared with."""

@@ -7,15 +7,19 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations
 from random import Random
-from typing import Final
+from typing import Final, TypeAlias
 
 import exactpt
-from exactpt import Body, Contact, Scene, Translation
+from exactpt import Body, Contact, Polynomial, Scene, Translation
 from exactpt.kernel.numbers import QQ
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.witnesses import Difference
 
-__all__ = ["arrays_are_single_calls", "batch_is_single_calls"]
+__all__ = [
+    "array_queries_are_first_contacts",
+    "arrays_are_single_calls",
+    "batch_is_single_calls",
+]
 
 LINES: Final = 5
 """Maximum number of scenes in a batch."""
@@ -61,6 +65,74 @@ def arrays_are_single_calls(scene: Scene, random: Random) -> str:
         _check_row(contacts, row, expected)
         outcomes.add("none" if expected is None else expected.kind)
     return ", ".join(sorted(outcomes)) or "none"
+
+
+def array_queries_are_first_contacts(scene: Scene, random: Random) -> str:
+    """First contacts of moving points with moving segments, in arrays, are those of the scenes."""
+    bodies = [body for body in scene.bodies if _suits_arrays(body) and _is_straight(body)]
+    points = [_places_of(body) for body in bodies]
+    refuse_unless(points and any(len(two) > 1 for two in points))
+    refuse_unless(_is_double(scene.exact_start) and _is_double(scene.exact_end))
+    rows = [_a_query(points, random) for _ in range(ROWS)]
+    moving = [[row[k] for row in rows] for k in range(3)]
+    span = float(scene.exact_start), float(scene.exact_end)
+    contacts = exactpt.arrays.point_segment_contacts(
+        *[[place for place, _ in vertices] for vertices in moving],
+        velocities=[[velocity for _, velocity in vertices] for vertices in moving],
+        time=span,
+        errors="mask",
+    )
+    outcomes = set()
+    for row, (point, first, last) in enumerate(rows):
+        if contacts.refused[row]:
+            continue
+        bodies = [_body("point", point), _body("segment", first, last)]
+        expected = exactpt.first_contact(Scene(bodies, span))
+        _check_row(contacts, row, expected)
+        outcomes.add("none" if expected is None else expected.kind)
+    return ", ".join(sorted(outcomes)) or "refused"
+
+
+Moving: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+"""A vertex in straight motion: its place at time 0, and its velocity."""
+
+
+def _is_straight(body: Body) -> bool:
+    assert isinstance(body.motion, Translation)  # noqa: S101 - see `_suits_arrays`
+    return body.motion.x.degree <= 1 and body.motion.y.degree <= 1
+
+
+def _places_of(body: Body) -> list[Moving]:
+    """Return the vertices of a body in straight motion whose places at time 0 are doubles."""
+    assert isinstance(body.motion, Translation)  # noqa: S101 - see `_suits_arrays`
+    path = body.motion.x, body.motion.y
+    found = []
+    for vertex in body.vertices:
+        place = [c(0) + f(0) for c, f in zip(vertex, path, strict=True)]
+        if all(map(_is_double, place)):
+            velocity = [float(f.coefficients[1]) if f.degree == 1 else 0.0 for f in path]
+            found.append(((float(place[0]), float(place[1])), (velocity[0], velocity[1])))
+    return found
+
+
+def _a_query(points: list[list[Moving]], random: Random) -> tuple[Moving, Moving, Moving]:
+    """Return a point and the ends of a segment: of two bodies, or ends that move apart."""
+    edge = random.choice([some for some in points if len(some) > 1])
+    k = random.randrange(len(edge))
+    first, last = edge[k - 1], edge[k]
+    others = [vertex for some in points if some is not edge for vertex in some] or edge
+    if random.random() < 0.3:
+        last = random.choice(others)
+    return random.choice(others), first, last
+
+
+def _body(name: str, *vertices: Moving) -> Body:
+    """Return a point or a segment whose vertices have velocities of their own."""
+    tracks = [
+        [Polynomial([Fraction(x), Fraction(u)]) for x, u in zip(place, velocity, strict=True)]
+        for place, velocity in vertices
+    ]
+    return Body(name, [(x, y) for x, y in tracks], closed=False)
 
 
 def _suits_arrays(body: Body) -> bool:

@@ -1,6 +1,7 @@
 """The runner of laws: cases are texts, faults are shrunk and kept, a new source moves few cases."""
 
 import json
+import os
 from fractions import Fraction
 from random import Random
 
@@ -8,7 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt import Body, InputError, Scene, Translation, first_contact
-from fuzz.laws import command, runner, scenes, table
+from fuzz import quick_worth
+from fuzz.laws import command, law, power, runner, scenes, table
 from fuzz.laws.known import Known
 from fuzz.laws.law import Law
 from fuzz.laws.runner import Case, Tally, case_of, cases_of, count_of, look, shrunk
@@ -88,9 +90,42 @@ def test_unknown_source_or_change_is_an_error():
 
 
 def test_every_law_names_sources_that_exist():
-    for law in table.LAWS.values():
-        assert all(scenes.names_of(pattern) for pattern in law.sources)
-        assert law.meaning.endswith(".")
+    for one in table.LAWS.values():
+        assert all(scenes.names_of(pattern) for pattern in one.sources)
+        assert one.meaning.endswith(".")
+
+
+def test_law_whose_program_is_not_built_is_left_out(monkeypatch):
+    monkeypatch.setitem(law.PROGRAMS, "old engine", lambda: False)
+
+    result = invoked(command.run, "old engine", "reference", "--seconds", "0.1")
+
+    assert result.output.startswith("old engine/same is left out: old engine is not built\n")
+    assert "1 laws, seed" in result.output
+    assert result.exit_code == 0
+
+
+@pytest.mark.plain
+def test_power_finds_a_planted_mistake_and_none_without_one():
+    (mistake,) = [one for one in quick_worth.planted() if one.name.endswith("events dropped")]
+    nothing = mistake._replace(make=lambda: None)
+
+    found = power.hunt(mistake, ["tiling/static"], 0, 10.0)
+    unfound = power.hunt(nothing, ["tiling/static"], 0, 0.5)
+
+    assert found.law == "tiling/static"
+    assert "certificates missing or superfluous" in found.why
+    assert found.cases < 20
+    assert unfound.law == ""
+    assert unfound.cases > 0
+
+
+def test_power_of_a_process_that_dies_counts_as_found():
+    dying = quick_worth.Fault("dies", (), "", lambda: os._exit(3))
+
+    found = power.hunt(dying, ["tiling/static"], 0, 1.0)
+
+    assert found.law == "the process"
 
 
 def test_fault_is_shrunk_to_the_same_signature(broken):
@@ -151,7 +186,7 @@ def test_scene_with_too_many_vertices_is_left_out(monkeypatch):
 
 def test_count_of_a_tier_follows_from_the_cost(monkeypatch):
     monkeypatch.setattr(runner, "costs", lambda: {"tiling/static": 10.0})
-    shares = sum(law.share for law in table.LAWS.values())
+    shares = sum(one.share for one in table.LAWS.values())
     seconds = runner.TIERS["full"] * table.LAWS["tiling/static"].share / shares
 
     assert count_of("tiling/static", "full") == round(seconds / 0.010)

@@ -1,0 +1,58 @@
+"""Laws by witnesses: another program, another version, another definition says the same."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from random import Random
+
+from exactpt import Scene
+from exactpt.check import check_run
+from fuzz.laws import definitions
+from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.tilings import a_tiling
+from fuzz.old_engine.compare import compared
+from fuzz.old_engine.process import old_engine
+from fuzz.witnesses import Difference, tilings_of
+
+__all__ = ["cgal_accepts_runs", "definitions_agree", "old_engine_agrees"]
+
+
+def definitions_agree(scene: Scene, random: Random) -> str:  # noqa: ARG001
+    """The first contact by all pairs is the start of the first interval by critical times."""
+    refuse_unless(not any(body.has_rings or body.keyframes for body in scene.bodies))
+    contact = definitions.first_contact(scene)
+    refuse_unless(contact is None or contact.kind != "self")
+    start, end = scene.exact_start, scene.exact_end
+    starts = []
+    for a, b in combinations(scene.bodies, 2):
+        reach = a.exact_radius + b.exact_radius
+        if reach:
+            intervals = definitions.intervals_within(a, b, start, end, reach**2)
+        else:
+            intervals = definitions.contact_intervals(a, b, start, end)
+        starts += [interval[0] for interval in intervals[:1]]
+    check_equal("time of the first contact", contact and contact.time, min(starts, default=None))
+    return "no contact" if contact is None else contact.kind
+
+
+def cgal_accepts_runs(scene: Scene, random: Random) -> str:
+    """CGAL accepts every tiling and every event time of a run."""
+    tiling = a_tiling(scene, random)
+    report = check_run(scene, tiling=tiling)
+    if not report.ok:
+        raise Difference(f"{tiling}: cgal", report.failures[0])
+    return f"{tiling}, {'some' if report.events else 'no'} events"
+
+
+def old_engine_agrees(scene: Scene, random: Random) -> str:
+    """The engine of version 0.2 gives the same results, byte for byte."""
+    outcome = ""
+    for asked in compared(scene, tilings_of(scene), random.randrange(100), old_engine()):
+        if asked.is_left_out:
+            continue
+        outcome = asked.question
+        if asked.new != asked.old:
+            kind = f"{asked.question}: {asked.new.kind}"
+            raise Difference(kind, f"{asked.arguments}: {asked.new.text}, once {asked.old.text}")
+    refuse_unless(outcome)
+    return outcome
