@@ -45,6 +45,7 @@ class Law:
         sources: patterns of names of sources (`fuzz.laws.scenes.names_of`), taken in turn.
         share: its share of the time, relative to the other laws.
         most: maximum number of vertices of a scene; None for no limit.
+        cases: the number of its cases, if it has the same few in each run: those of seed 0.
         needs: the other program that it runs, of `PROGRAMS`; "" for none.
     """
 
@@ -52,6 +53,7 @@ class Law:
     sources: tuple[str, ...]
     share: float = 1.0
     most: int | None = None
+    cases: int | None = None
     needs: str = ""
 
     @property

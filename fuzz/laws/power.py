@@ -17,6 +17,7 @@ import click
 from exactpt.errors import InputError
 from exactpt.kernel import filters
 from fuzz import quick_worth
+from fuzz.laws.known import reason_of
 from fuzz.laws.runner import PATIENCE, run_for, runnable
 from fuzz.laws.scenes import made
 from fuzz.laws.table import LAWS
@@ -85,7 +86,7 @@ def _hunt_here(mistake: Fault, laws: Sequence[str], seed: int, seconds: float) -
     for looked in run_for(laws, seed, seconds):
         cases += 1
         fault = looked.fault
-        if fault is not None:
+        if fault is not None and reason_of(str(looked.case)) is None:
             spent = clock.process_time() - began
             return Found(fault.case.law, fault.case.place, fault.why[:200], cases, spent)
     return Found("", "", "", cases, clock.process_time() - began)

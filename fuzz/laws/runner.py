@@ -134,13 +134,15 @@ class Looked(NamedTuple):
 
 
 def case_of(law: str, seed: int, number: int) -> Case:
-    """Return the case of a number."""
+    """Return the case of a number, which a law with few cases has once."""
+    if LAWS[law].cases is not None:
+        seed = 0
     source = drawn(LAWS[law].sources, f"{law} {seed}", number)
     return Case(law, source, seed, number)
 
 
 def cases_of(law: str, seed: int, count: int) -> Iterator[Case]:
-    """Yield the first cases of a law."""
+    """Yield the first cases of a law; there are `Law.cases` of some."""
     return (case_of(law, seed, number) for number in range(count))
 
 
@@ -205,7 +207,9 @@ def count_of(law: str, tier: str) -> int:
     """Return the number of cases of a law in a tier: the same on every machine."""
     shares = sum(one.share for one in LAWS.values())
     seconds = TIERS[tier] * LAWS[law].share / shares
-    return max(len(LAWS[law].sources), round(1000 * seconds / costs().get(law, USUAL)))
+    count = max(len(LAWS[law].sources), round(1000 * seconds / costs().get(law, USUAL)))
+    most = LAWS[law].cases
+    return count if most is None else min(count, most)
 
 
 def runnable(laws: Iterable[str]) -> list[str]:
@@ -217,8 +221,11 @@ def run_for(laws: Sequence[str], seed: int, seconds: float) -> Iterator[Looked]:
     """Check cases of some laws in turn; that with the least time for its share is next."""
     spent, numbers = dict.fromkeys(laws, 0.0), dict.fromkeys(laws, 0)
     ends = clock.process_time() + seconds
-    while clock.process_time() < ends:
-        law = min(laws, key=lambda name: spent[name] / LAWS[name].share)
+    while spent and clock.process_time() < ends:
+        law = min(spent, key=lambda name: spent[name] / LAWS[name].share)
+        if numbers[law] == LAWS[law].cases:
+            del spent[law]
+            continue
         looked = look(case_of(law, seed, numbers[law]))
         numbers[law] += 1
         spent[law] += looked.seconds + 1e-4

@@ -44,6 +44,9 @@ SHAPES: Final = (
 )
 DENOMINATORS: Final = (3, 7, 9, 13)
 CROWDS: Final = ("convex", "row", "convoy", "small_grid")
+WHOLE: Final = ("convex", "row", "convoy", "ballistic", "turning", "deforming", "pieces", "stars",
+                "frames", "discs", "linear_points")  # fmt: skip
+"""Families of whole scenes about which costs are compared."""
 
 
 def _of_family(name: str) -> Source:
@@ -77,6 +80,10 @@ def _of_corpus(random: Random) -> Scene:
     return Scene.load(random.choice(corpus.files()))
 
 
+def _whole(name: str) -> Source:
+    return lambda random: generate(name, random.randrange(SEEDS))
+
+
 def _nothing(random: Random) -> Scene:  # noqa: ARG001
     return Scene([])
 
@@ -99,7 +106,8 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     "corpus": _of_corpus,
-    "whole": _crowd,
+    "crowd": _crowd,
+    **{f"whole/{name}": _whole(name) for name in WHOLE},
     "far/relay": relay,
     "far/convoy": convoy,
     "spinning": spinning_scene,

@@ -6,6 +6,14 @@ from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree
 from fuzz.laws.choices import choices_are_each_pair_alone
+from fuzz.laws.costs import (
+    bystander_costs_nothing,
+    later_end,
+    many_far_bodies,
+    one_body_in_pieces,
+    one_far_body,
+    one_fast_body,
+)
 from fuzz.laws.distances import clearance_is_the_distance
 from fuzz.laws.drawn import (
     curves_are_within_their_errors,
@@ -28,6 +36,7 @@ from fuzz.laws.runs import (
     population_is_a_new_scene,
     restored_run_goes_on,
 )
+from fuzz.laws.scenes import names_of
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
 from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
 from fuzz.laws.together import (
@@ -43,6 +52,7 @@ MOVING: Final = ("turning", "deforming", "curved", "pieces")
 TINY: Final = ("tiny/pair", "tiny/touching", "tiny/meeting", "tiny/fractions", "scope")
 CLOSE: Final = ("tiny/pair+awkward", "tiny/meeting+awkward", "tiny/fractions", "pair",
                 "pair+awkward", "pair+nudged", "tiny/pair+nudged")  # fmt: skip
+WHOLE: Final = names_of("whole")
 FAMILY: Final = ("family", "family+awkward", "family+thin")
 
 LAWS: Final[dict[str, Law]] = {
@@ -134,7 +144,7 @@ LAWS: Final[dict[str, Law]] = {
             "pair",
             "family",
             "tiny/fractions",
-            "whole",
+            "crowd",
             "far/relay",
             "far/relay+awkward",
         ),
@@ -189,6 +199,27 @@ LAWS: Final[dict[str, Law]] = {
         ("family", "pair+nudged", "tiny/pair+awkward"),
         most=60,
         needs="old engine",
+    ),
+    **{
+        f"cost/{name}": Law(
+            bystander_costs_nothing(bystander, "--method", "pairs"),
+            WHOLE,
+            share=0.5,
+            cases=2 * len(WHOLE),
+        )
+        for name, bystander in (
+            ("far body", one_far_body),
+            ("far bodies", many_far_bodies),
+            ("fast body", one_fast_body),
+            ("body in pieces", one_body_in_pieces),
+            ("later end", later_end),
+        )
+    },
+    "cost/later end, lazy": Law(
+        bystander_costs_nothing(later_end, "--tiling", "lazy"),
+        ("whole/convex", "whole/stars", "whole/turning"),
+        share=0.5,
+        cases=24,
     ),
 }
 """The laws by name: the question, and what it is compared with."""

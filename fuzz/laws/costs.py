@@ -1,0 +1,134 @@
+"""Laws about costs, by counts: what matters to nobody changes none by more than a stated share.
+
+A bystander is added to a scene: a body far from all others, at rest or fast, or a later end of the
+time span than the first contact. The first contact is the same. The counts that the command
+``exactpt collide`` reports, and the number of looks at the clock, may grow by `SHARE` and `MARGIN`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import Final, TypeAlias
+
+from click.testing import CliRunner
+
+import exactpt
+from exactpt import Body, Pieces, Scene, Translation
+from exactpt.cli import cli
+from exactpt.kernel.numbers import QQ, fraction
+from exactpt.testing import ending_at
+from fuzz.laws.law import Check, check_equal, refuse_unless
+from fuzz.witnesses import Difference
+
+__all__ = [
+    "bystander_costs_nothing",
+    "later_end",
+    "many_far_bodies",
+    "one_body_in_pieces",
+    "one_far_body",
+    "one_fast_body",
+]  # fmt: skip
+
+SHARE: Final = 1.25
+"""Ratio by which a count may grow."""
+
+MARGIN: Final = 8
+"""Number by which a count may grow beyond that, for each bystander."""
+
+COUNTED: Final = ("certificates", "exact")
+"""Counts of the command: pairs of features or certificates, and exact decisions."""
+
+Bystander: TypeAlias = Callable[[Scene], tuple[Scene, int]]
+"""Returns a scene with bystanders, and their number."""
+
+
+def _size_and_far(scene: Scene) -> tuple[QQ, QQ]:
+    """Return the size of a scene, origin included, and a coordinate far outside of it."""
+    times = [scene.start, (scene.start + scene.end) / 2, scene.end]
+    points = [p for time in times for body in scene.bodies for p in body.at(time)]
+    size = max(max(abs(QQ(str(c))) for c in p) for p in points) + 1
+    return size, 10 * size
+
+
+def _with_bodies(scene: Scene, count: int, velocity: Callable[[QQ], QQ]) -> tuple[Scene, int]:
+    size, far = _size_and_far(scene)
+    bodies = []
+    for k in range(count):
+        x = far + 3 * k * size
+        shape = [(x, far), (x + size, far), (x, far + size)]
+        motion = Translation([0], [0, velocity(size)])
+        bodies.append(Body(f"bystander {k}", [tuple(map(fraction, p)) for p in shape], motion))
+    return Scene([*scene.bodies, *bodies], (scene.start, scene.end)), count
+
+
+def one_far_body(scene: Scene) -> tuple[Scene, int]:
+    """Add a body at rest, ten times as far away as the scene is large."""
+    return _with_bodies(scene, 1, lambda _: QQ(0))
+
+
+def many_far_bodies(scene: Scene) -> tuple[Scene, int]:
+    """Add sixteen bodies at rest, far away and far from each other."""
+    return _with_bodies(scene, 16, lambda _: QQ(0))
+
+
+def one_fast_body(scene: Scene) -> tuple[Scene, int]:
+    """Add a body far away that leaves, 1000 times the size of the scene in a unit of time."""
+    return _with_bodies(scene, 1, lambda size: 1000 * size)
+
+
+def one_body_in_pieces(scene: Scene) -> tuple[Scene, int]:
+    """Add a body far away whose motion has 16 pieces."""
+    size, far = _size_and_far(scene)
+    span = scene.exact_end - scene.exact_start
+    ends = [scene.exact_start + span * QQ(k, 16) for k in range(1, 16)]
+    motions = [Translation([0], [0]) for _ in range(16)]
+    pieces = Pieces(list(zip([*map(fraction, ends), None], motions, strict=True)))
+    shape = [(far, far), (far + size, far), (far, far + size)]
+    body = Body("bystander", [tuple(map(fraction, p)) for p in shape], pieces)
+    return Scene([*scene.bodies, body], (scene.start, scene.end)), 1
+
+
+def later_end(scene: Scene) -> tuple[Scene, int]:
+    """Let the time span end 16 times as late, after a contact in it."""
+    refuse_unless(exactpt.first_contact(scene) is not None)
+    refuse_unless(not any(body.keyframes for body in scene.bodies))
+    span = scene.exact_end - scene.exact_start
+    return Scene(scene.bodies, (scene.start, fraction(scene.exact_start + 16 * span))), 0
+
+
+def bystander_costs_nothing(bystander: Bystander, *options: str) -> Check:
+    """Return the check that a bystander changes no count of a search by much."""
+
+    def check(scene: Scene, random: Random) -> str:  # noqa: ARG001
+        """What matters to nobody changes no count of a search by more than a stated share."""
+        crowd, number = bystander(scene)
+        before, contact = _counts(scene, options)
+        after, same = _counts(crowd, options)
+        check_equal("time of the contact", same, contact)
+        for name, count in before.items():
+            most = SHARE * count + MARGIN * (1 + number)
+            if after[name] > most:
+                raise Difference(name, f"{count} became {after[name]}, at most {most:.0f}")
+        return "no contact" if contact is None else "a contact"
+
+    return check
+
+
+def _counts(scene: Scene, options: tuple[str, ...]) -> tuple[dict[str, int], object]:
+    """Return the counts of a search by the command, and the time of the contact."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.json"
+        scene.save(path)
+        words = ["collide", str(path), "--json", "--max-seconds", "1000", *options]
+        with ending_at(None) as clock:
+            result = CliRunner().invoke(cli, words, catch_exceptions=False)
+    refuse_unless(result.exit_code == 0)
+    data = json.loads(result.stdout)
+    stats = data["stats"]
+    counts = {name: int(stats.get(name, 0)) for name in COUNTED}
+    contact = data["contact"]
+    return {**counts, "looks": clock.looks}, contact and contact["time"]
