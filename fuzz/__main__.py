@@ -12,9 +12,11 @@ import click
 from exactpt.files import write_atomically
 from exactpt.testing.scenes import EVERY, SPINNING, families
 from exactpt.tiling.start import TILINGS
-from fuzz import awkward, battery, planted, soak
+from fuzz import battery, planted, soak
 from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
+from fuzz.changes import awkward
+from fuzz.changes.thin import SUFFIX
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.laws.command import again, keep, record_costs, run
@@ -29,7 +31,6 @@ from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.space_queries import compare_public_queries, score_engines
-from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
 from fuzz.witnesses import OLD, WITNESSES
 

@@ -17,9 +17,9 @@ from exactpt.testing.shrinking import shrink_data
 from exactpt.workers.work import HANGS
 from fuzz import corpus
 from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.changes.excerpts import scene_of
 from fuzz.limits import TimeIsUp, TooSlow, limit, patience_of, signed
 from fuzz.questions.command import KEPT, ask
-from fuzz.subscene import scene_of
 from fuzz.witnesses import OLD, WITNESSES, Difference, LeftOutError
 
 __all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "shrunk"]

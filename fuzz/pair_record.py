@@ -36,10 +36,10 @@ from exactpt import (
 )
 from exactpt.arrays import first_contacts
 from exactpt.batch import answers
+from fuzz.changes.excerpts import scene_of
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.tiny import touching_scene
 from fuzz.record import digest
-from fuzz.subscene import scene_of
 
 __all__ = ["ARRAYS", "TINY", "array_answers", "pair_answers", "pair_record"]
 

@@ -44,8 +44,8 @@ from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
-from fuzz.awkward import SUFFIX, awkward
 from fuzz.cases import QUESTION, Failure, failure_of
+from fuzz.changes.awkward import SUFFIX, awkward
 from fuzz.questions.command import KEPT, ask
 from fuzz.small_scope.look import look
 from fuzz.small_scope.scope import planned

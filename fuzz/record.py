@@ -16,7 +16,7 @@ from typing import Final
 
 from exactpt import Contact, Scene, Simulation, first_contact
 from exactpt.kernel.numbers import QQ
-from fuzz.subscene import scene_of
+from fuzz.changes.excerpts import scene_of
 from fuzz.witnesses import tilings_of
 
 __all__ = ["differences", "digest", "record"]

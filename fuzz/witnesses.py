@@ -12,11 +12,11 @@ from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.testing.audits import run_and_audit
 from exactpt.tiling.start import tilings_for
+from fuzz.changes.variants import VARIANTS, difference
 from fuzz.old_engine.compare import compared
 from fuzz.old_engine.process import old_engine
 from fuzz.proofs.checking import checker
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.variants import VARIANTS, difference
 
 __all__ = [
     "OLD",

@@ -17,8 +17,8 @@ from exactpt.batch.journal import SEAL
 from exactpt.proof.written import write_proof
 from exactpt.simulation.store import sealed
 from exactpt.testing.scenes import families
+from fuzz.changes.excerpts import scene_of
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
-from fuzz.subscene import scene_of
 
 __all__ = ["FORMATS", "SCENES", "Hostile", "batch_files", "hostile", "scene_text"]
 

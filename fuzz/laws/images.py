@@ -7,10 +7,10 @@ from random import Random
 import exactpt
 from exactpt import Scene
 from exactpt.kernel.numbers import QQ, fraction
-from fuzz.awkward import awkward_variant
+from fuzz.changes.awkward import awkward_variant
+from fuzz.changes.variants import Variant, difference, expected_time
 from fuzz.laws.law import check_equal
 from fuzz.laws.questions import a_time, contact_kind, contact_value, two_names
-from fuzz.variants import Variant, difference, expected_time
 from fuzz.witnesses import Difference, tilings_of
 
 __all__ = ["first_contact_of_image", "pairs_of_image"]

@@ -1,6 +1,7 @@
 """The registry of scenes: every source by name, each a function from random choices to a scene.
 
-The name of a source may be followed by changes (`fuzz.laws.changes`): ``tiny/pair+awkward+nudged``.
+The name of a source may be followed by changes: ``tiny/pair+awkward+nudged``. They are those of
+`fuzz.changes.registry`.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from exactpt.testing import FAMILIES as PAIRS
 from exactpt.testing import make_question
 from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
 from fuzz import corpus
-from fuzz.laws.changes import CHANGES, changed
+from fuzz.changes.excerpts import scene_of
+from fuzz.changes.registry import CHANGES, changed
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
@@ -27,7 +29,6 @@ from fuzz.questions.spinning import path_scene, spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.questions.touching_rings import touching_pair
 from fuzz.small_scope.scope import planned
-from fuzz.subscene import scene_of
 
 __all__ = ["KINDS", "SOURCES", "drawn", "made", "names_of"]
 

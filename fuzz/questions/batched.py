@@ -14,7 +14,7 @@ from exactpt import Body, Rigid, Scene, first_contact
 from exactpt.batch.answering import answers
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.scene.written import to_json
-from fuzz.awkward import TURNS, awkward_number
+from fuzz.changes.awkward import TURNS, awkward_number
 
 __all__ = ["touching_while_turning", "wrong_in_batch"]
 

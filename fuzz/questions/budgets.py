@@ -16,7 +16,7 @@ from exactpt import Body, BudgetExceeded, Contact, Pieces, Scene, Translation, f
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.testing.ending import StandingClock, ending_at
 from exactpt.testing.scenes import generate
-from fuzz.awkward import awkward
+from fuzz.changes.awkward import awkward
 from fuzz.questions.scenes import crowded_scene
 from fuzz.witnesses import tilings_of
 

@@ -13,7 +13,7 @@ from typing import Final
 from exactpt import Body, Scene, Translation, first_contact
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.kernel.numbers import QQ
-from fuzz.awkward import awkward_number
+from fuzz.changes.awkward import awkward_number
 from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["convoy", "wrong_in_convoy"]

@@ -8,13 +8,13 @@ from typing import Any, Final
 from exactpt import FreeSpace, Scene, Simulation, UnreachableError, first_contact
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.testing.scenes import generate
-from fuzz.awkward import awkward
+from fuzz.changes.awkward import awkward
+from fuzz.changes.excerpts import subscene
 from fuzz.questions import brute
 from fuzz.questions.brute import Places, Point
 from fuzz.questions.scenes import crowded_scene
 from fuzz.questions.tiny import touching_scene
 from fuzz.questions.visibility_graph import VisibilityGraph, length_of
-from fuzz.subscene import subscene
 from fuzz.witnesses import tilings_of
 
 __all__ = ["some_point", "wrong_path", "wrong_place"]

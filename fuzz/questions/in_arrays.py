@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 from exactpt import Body, Contact, Scene, Translation, first_contact
 from exactpt.arrays import KINDS, first_contacts
 from exactpt.kernel.numbers import of_double
-from fuzz.awkward import awkward_number
+from fuzz.changes.awkward import awkward_number
 
 __all__ = ["wrong_in_arrays"]
 

@@ -8,9 +8,9 @@ from typing import Final
 from exactpt import Scene, clearance, distance
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.testing.scenes import generate
-from fuzz.awkward import awkward
+from fuzz.changes.awkward import awkward
+from fuzz.changes.excerpts import subscene
 from fuzz.questions import reference
-from fuzz.subscene import subscene
 
 __all__ = ["KINDS", "wrong_clearance"]
 

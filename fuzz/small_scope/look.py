@@ -12,13 +12,13 @@ from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.testing.audits import run_and_audit
+from fuzz.changes.images import halved
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
-from fuzz.subdivided import subdivided
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 
 __all__ = ["AUDITED", "Answer", "Look", "look", "looks", "looks_at_proofs"]
@@ -161,7 +161,7 @@ def _new_contact(scene: Scene, contact: Contact | None) -> str | None:
         with suppress(InputError):  # a body that touches itself then
             scene = scene.since(contact.time.low)
     expected = first_new_contact(scene)
-    for same, what in ((scene, "new contact"), (subdivided(scene), "new contact of cut edges")):
+    for same, what in ((scene, "new contact"), (halved(scene), "new contact of cut edges")):
         found = first_contact(same, after_start=True)
         names = [body.name for body in same.bodies]
         pairs = {

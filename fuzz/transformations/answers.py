@@ -19,9 +19,9 @@ from exactpt.arrays import first_contacts
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from fuzz.changes.images import Feature, Side
 from fuzz.questions.reference import nearest
 from fuzz.small_scope.by_arrays import suits
-from fuzz.transformations.images import Feature, Side
 
 __all__ = ["QUESTIONS", "Case", "NotAskedError", "Question", "Refusal", "answer"]
 

@@ -13,10 +13,10 @@ import click
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.changes.images import TRANSFORMATIONS
 from fuzz.limits import limit
 from fuzz.options import HELP, Options, conduct, options
 from fuzz.transformations.answers import QUESTIONS
-from fuzz.transformations.images import TRANSFORMATIONS
 from fuzz.transformations.run import SCENES, Fault, check
 
 __all__ = ["Transformations", "equalities", "transformations"]

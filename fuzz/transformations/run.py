@@ -9,12 +9,12 @@ from typing import Final, NamedTuple
 
 from exactpt import Body, Scene, Translation
 from exactpt.kernel.numbers import QQ
+from fuzz.changes.images import TRANSFORMATIONS, Image, move_alike
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene
 from fuzz.questions.spinning import spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.transformations.answers import QUESTIONS, Case, NotAskedError, Refusal, answer
-from fuzz.transformations.images import TRANSFORMATIONS, Image, move_alike
 
 __all__ = ["SCENES", "Fault", "check", "scene_of"]
 

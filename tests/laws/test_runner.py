@@ -293,7 +293,9 @@ def test_rounded_scene_has_doubles_only_and_awkward_one_has_others():
     assert not all(are_doubles(changed("awkward")))
 
 
-@pytest.mark.parametrize("name", ["subdivided", "cut", "renumbered", "reversed", "permuted"])
+@pytest.mark.parametrize(
+    "name", ["halved", "subdivided", "cut", "renumbered", "reversed", "permuted"]
+)
 def test_change_of_the_description_is_another_scene(name):
     image = changed(name)
 

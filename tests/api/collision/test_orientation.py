@@ -10,8 +10,8 @@ from exactpt import Body, Pieces, Rigid, Scene, onward
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
+from fuzz.changes.variants import VARIANTS, difference
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.variants import VARIANTS, difference
 
 QUARTERS = [(1, 0), (0, 1), (-1, 0), (0, -1)]
 UNITS = [*QUARTERS, ("3/5", "4/5"), ("-4/5", "3/5"), ("5/13", "-12/13")]

@@ -5,8 +5,8 @@ import pytest
 from exactpt import Body, Scene, Translation, first_contact
 from exactpt.tiling.start import TILINGS
 from fuzz.battery import BATTERY, play, table
+from fuzz.changes.variants import VARIANTS
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.variants import VARIANTS
 
 FALL = Translation([], [0, -1])
 FLAT = [(0, 0), (10, 0), (10, 5), (8, 5), (6, 5), (4, 5), (2, 5), (0, 5)]

@@ -12,11 +12,11 @@ from exactpt.errors import AuditError
 from exactpt.testing.scenes import EVERY
 from fuzz import __main__ as command
 from fuzz.cases import LEFT_OUT, Case, Scenes, run_case
+from fuzz.changes.excerpts import scene_of
 from fuzz.old_engine import build
 from fuzz.old_engine.answers import QUESTIONS, answer_to
 from fuzz.old_engine.compare import compared
 from fuzz.old_engine.process import Answer, OldEngine
-from fuzz.subscene import scene_of
 from fuzz.witnesses import OLD, WITNESSES, Difference, LeftOutError, tilings_of
 
 BOX = Body("box", [(0, 0), (2, 0), (2, 1), (0, 1)], Translation([0, "1/2"]))

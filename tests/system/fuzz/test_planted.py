@@ -23,11 +23,11 @@ from exactpt.kernel.numbers import QQ
 from exactpt.pairs import boxes
 from exactpt.testing import ending_at
 from exactpt.testing.scenes import FAMILIES, generate
-from fuzz.awkward import SUFFIX, awkward, awkward_variant
+from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
+from fuzz.changes.excerpts import scene_of
+from fuzz.changes.variants import VARIANTS, difference, expected_time
 from fuzz.planted import PLANTED, Found, _edited, hunt, table
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.subscene import scene_of
-from fuzz.variants import VARIANTS, difference, expected_time
 
 pytestmark = pytest.mark.plain
 

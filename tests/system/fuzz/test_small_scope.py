@@ -21,6 +21,7 @@ from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign
+from fuzz.changes.images import halved
 from fuzz.planted import PLANTED
 from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.small_scope import tally
@@ -42,7 +43,6 @@ from fuzz.small_scope.sample import FAR, SAMPLES, sampled
 from fuzz.small_scope.scenes import touching
 from fuzz.small_scope.scope import COMPLETE, entries, in_part, planned, sizes
 from fuzz.small_scope.shapes import SYMMETRIES, image, shape_of, shapes, turned
-from fuzz.subdivided import subdivided
 
 ROOT = Path(__file__).parents[3]
 
@@ -527,13 +527,13 @@ def test_new_contacts_are_asked_for_with_cut_edges():
 def test_cut_edges_are_the_same_points():
     for number in range(0, 400, 7):
         scene = planned(number).scene
-        cut = subdivided(scene)
+        cut = halved(scene)
         for body, same in zip(scene.bodies, cut.bodies, strict=True):
             assert len(same.edges) == 2 * len(body.edges)
             assert len({*same.at(scene.end)} & {*body.at(scene.end)}) == len({*body.at(scene.end)})
             assert same.has_interior == body.has_interior
     plate = Body("p", [(0, 0), (9, 0), (0, 9)], holes=[[(1, 1), (1, 2), (2, 1)]], radius=1)
-    (cut,) = subdivided(Scene([plate], time=(0, 1))).bodies
+    (cut,) = halved(Scene([plate], time=(0, 1))).bodies
     assert cut.edges[-1] == (11, 6)
     assert [len(ring) for ring in cut.rings] == [6, 6]
     assert cut.radius == 1

@@ -10,10 +10,10 @@ from exactpt import AlgebraicNumber, Body, Scene
 from exactpt.kernel import filters
 from exactpt.kernel.numbers import QQ
 from fuzz.campaign import Progress
+from fuzz.changes.images import TRANSFORMATIONS, Mirror, move_alike
 from fuzz.transformations import run
 from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.command import Transformations, transformations
-from fuzz.transformations.images import TRANSFORMATIONS, Mirror, move_alike
 from fuzz.transformations.planted import PLANTED, hunt
 from fuzz.transformations.run import SCENES, check, scene_of
 

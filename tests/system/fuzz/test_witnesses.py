@@ -17,11 +17,11 @@ from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, g
 from exactpt.tiling.start import TILINGS
 from fuzz import corpus
 from fuzz.cases import failure_of
+from fuzz.changes.excerpts import MOST, WHOLE, scene_of, subscene
+from fuzz.changes.thin import SUFFIX
+from fuzz.changes.variants import VARIANTS, difference, expected_time
 from fuzz.old_engine.build import is_built
 from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.subscene import MOST, WHOLE, scene_of, subscene
-from fuzz.thin import SUFFIX
-from fuzz.variants import VARIANTS, difference, expected_time
 from fuzz.witnesses import OLD, WITNESSES
 
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")

@@ -23,9 +23,9 @@ from exactpt.testing.scenes import EVERY, generate
 from exactpt.testing.space.families import FAMILIES as SPACE
 from exactpt.testing.space.families import make_query
 from fuzz.battery import BATTERY
+from fuzz.changes.excerpts import scene_of
 from fuzz.questions import rounded, scenes, tiny
 from fuzz.small_scope.scope import planned
-from fuzz.subscene import scene_of
 
 WRITTEN = Path(__file__).parents[2] / "data" / "digests.json"
 PAIRS = {

@@ -14,8 +14,8 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.testing.scenes import generate
-from fuzz import awkward
-from fuzz.thin import SUFFIX, thinned
+from fuzz.changes import awkward
+from fuzz.changes.thin import SUFFIX, thinned
 
 __all__ = ["scene_of", "subscene"]
 
@@ -33,8 +33,9 @@ def scene_of(family: str, seed: int) -> Scene:
     """The scene that a campaign checks: usually a sub-scene of the family's.
 
     Args:
-        family: the name of a family; with `fuzz.thin.SUFFIX`, half of the bodies are replaced by
-            parts of their boundaries; with `fuzz.awkward.SUFFIX` the scene by an awkward image.
+        family: the name of a family; with `fuzz.changes.thin.SUFFIX`, half of the bodies are
+            replaced by parts of their boundaries; with `fuzz.changes.awkward.SUFFIX` the scene by
+            an awkward image.
         seed: seed of the scene.
     """
     if family.endswith(awkward.SUFFIX):

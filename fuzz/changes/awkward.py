@@ -12,7 +12,7 @@ from typing import Final, TypeAlias
 
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
-from fuzz.variants import Variant
+from fuzz.changes.variants import Variant
 
 __all__ = ["SUFFIX", "TURNS", "awkward", "awkward_number", "awkward_variant"]
 

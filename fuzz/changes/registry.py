@@ -9,11 +9,10 @@ from random import Random
 from typing import Any, Final, TypeAlias
 
 from exactpt import Scene
-from fuzz.awkward import awkward
-from fuzz.subdivided import subdivided
-from fuzz.thin import thinned
-from fuzz.transformations.images import TRANSFORMATIONS
-from fuzz.variants import VARIANTS
+from fuzz.changes.awkward import awkward
+from fuzz.changes.images import TRANSFORMATIONS, halved
+from fuzz.changes.thin import thinned
+from fuzz.changes.variants import VARIANTS
 
 __all__ = ["CHANGES", "Change", "changed"]
 
@@ -77,8 +76,8 @@ def _image_by(transformation: str) -> Change:
     return change
 
 
-def _subdivided(scene: Scene, random: Random) -> Scene:  # noqa: ARG001
-    return subdivided(scene)
+def _halved(scene: Scene, random: Random) -> Scene:  # noqa: ARG001
+    return halved(scene)
 
 
 def _cut(scene: Scene, random: Random) -> Scene:  # noqa: ARG001
@@ -90,7 +89,8 @@ CHANGES: Final[dict[str, Change]] = {
     "nudged": nudged,
     "rounded": rounded,
     "thin": thinned,
-    "subdivided": _subdivided,
+    "halved": _halved,
+    "subdivided": _image_by("subdivided"),
     "cut": _cut,
     "renumbered": _image_by("renumbered"),
     "reversed": _image_by("reversed"),

@@ -11,10 +11,19 @@ from typing import Any, Final, NamedTuple, TypeAlias
 from exactpt import AlgebraicNumber, Body, FreeSpace, InputError, Polynomial, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import Position
+from fuzz.changes.variants import Variant, expected_time
 from fuzz.questions.reference import nearest
-from fuzz.variants import Variant, expected_time
 
-__all__ = ["TRANSFORMATIONS", "Feature", "Image", "Mirror", "Side", "move_alike", "untouched"]
+__all__ = [
+    "TRANSFORMATIONS",
+    "Feature",
+    "Image",
+    "Mirror",
+    "Side",
+    "halved",
+    "move_alike",
+    "untouched",
+]
 
 Interval: TypeAlias = tuple[AlgebraicNumber, AlgebraicNumber]
 
@@ -158,6 +167,30 @@ def _subdivided(body: Body, random: Random) -> Iterator[_Ring]:
                 features.append(edge)
                 edges.append(edge)
         yield _Ring(vertices, features, edges)
+
+
+def halved(scene: Scene) -> Scene:
+    """Return a scene in which each edge is cut in the middle: the same sets of points.
+
+    Bodies given by keyframes are left as they are.
+    """
+    return Scene([_halved_body(body) for body in scene.bodies], (scene.start, scene.end))
+
+
+def _halved_body(body: Body) -> Body:
+    if body.keyframes or not body.edges:
+        return body
+    starts = {first for first, _ in body.edges}
+    rings = []
+    for ring in body.rings:
+        vertices = list[Position]()
+        for i in ring:
+            vertices.append(body.vertices[i])
+            if i in starts:
+                end = body.vertices[body.end_of_edge(i)]
+                vertices.append(_between(body.vertices[i], end, QQ(1, 2)))
+        rings.append(_Ring(vertices, [], []))
+    return _made(body, rings, body.name)
 
 
 def _between(p: Position, q: Position, share: QQ) -> Position:
