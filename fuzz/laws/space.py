@@ -16,7 +16,7 @@ from fuzz.questions.brute import Places, Point
 from fuzz.questions.free_space import some_point
 from fuzz.witnesses import Difference
 
-__all__ = ["paths_are_shortest", "places_are_as_defined"]
+__all__ = ["a_space", "paths_are_shortest", "places_are_as_defined"]
 
 POINTS: Final = 6
 """Number of points in a case about places."""
@@ -28,7 +28,7 @@ PRECISION: Final = 2**480
 """Lengths are compared up to this part of them."""
 
 
-def _a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
+def a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
     """Return the free space at the start, or at a time of the run, and the bodies there."""
     refuse_unless(scene.bodies)
     contact = exactpt.first_contact(scene)
@@ -44,7 +44,7 @@ def _a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
 
 def places_are_as_defined(scene: Scene, random: Random) -> str:
     """Places, rays, free segments and the hull are those found by looking at all edges."""
-    space, bodies = _a_space(scene, random)
+    space, bodies = a_space(scene, random)
     points = [some_point(random, bodies) for _ in range(POINTS)]
     for p, q in pairwise(points):
         place, owner = space.locate(p), brute.owner(p, bodies)
@@ -72,7 +72,7 @@ def _check_ray(space: FreeSpace, bodies: Places, p: Point, q: Point) -> None:
 
 def paths_are_shortest(scene: Scene, random: Random) -> str:
     """Shortest paths are as long as those in the visibility graph, from both ends."""
-    space, bodies = _a_space(scene, random)
+    space, bodies = a_space(scene, random)
     outcome = "no path"
     for _ in range(PATHS):
         p, q = some_point(random, bodies), some_point(random, bodies)

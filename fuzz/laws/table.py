@@ -44,6 +44,7 @@ from fuzz.laws.together import (
     arrays_are_single_calls,
     batch_is_single_calls,
 )
+from fuzz.laws.walks import relative_hulls_are_taut, shortened_walks_are_taut
 from fuzz.laws.witnessed import cgal_accepts_runs, definitions_agree, old_engine_agrees
 
 __all__ = ["LAWS"]
@@ -114,6 +115,12 @@ LAWS: Final[dict[str, Law]] = {
         most=40,
     ),
     "space/paths": Law(paths_are_shortest, ("family", "tiny/touching", "pair"), most=16),
+    "space/walks": Law(
+        shortened_walks_are_taut, ("family", "tiny/fractions", "family+awkward", "pair"), most=40
+    ),
+    "space/hulls": Law(
+        relative_hulls_are_taut, ("family", "tiny/crowded", "family+awkward"), share=0.5, most=40
+    ),
     "simulation/restored": Law(restored_run_goes_on, ("family", "tiny/meeting", "pair"), most=40),
     "simulation/living": Law(living_run_is_static, ("tiny/pair",)),
     "batch/single": Law(
