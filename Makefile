@@ -85,10 +85,11 @@ old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of th
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
 	$(BIN)/python -m fuzz.old_engine
 
-night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, planted mistakes
+night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, the laws, planted mistakes
 	status=0; for what in '' '--witness old'; do \
 	    $(BIN)/python -m fuzz $$what --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
 	done; \
+	$(BIN)/python -m fuzz run --seed $(subst -,,$(DATE)) --seconds $$((60 * $(MINUTES))) || status=1; \
 	$(BIN)/python -m fuzz planted || status=1; \
 	exit $$status
 

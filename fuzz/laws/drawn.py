@@ -12,16 +12,23 @@ from typing import Final
 
 from exactpt import Scene
 from fuzz import filter_attacks, overlays
+from fuzz.changes.images import TRANSFORMATIONS
 from fuzz.hostile import readers
 from fuzz.hostile.files import FORMATS, hostile
+from fuzz.laws.law import Check, refuse_unless
+from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.curves import wrong_along
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.stated import stated_case, wrong_after_moves, wrong_at_the_start
 from fuzz.questions.touching_rings import wrong_validity
+from fuzz.transformations import run
+from fuzz.transformations.run import SCENES
 from fuzz.witnesses import Difference
 
 __all__ = [
+    "as_asked",
     "curves_are_within_their_errors",
+    "descriptions_change_nothing",
     "drawings_have_their_parts",
     "filters_say_what_is_true",
     "hostile_files_are_refused",
@@ -42,6 +49,36 @@ def _raise(kind: str, fault: str | None, case: object) -> None:
     """Raise a difference if there is a fault, which is neither None nor empty."""
     if fault:
         raise Difference(kind, f"{fault}; the case: {case}")
+
+
+def as_asked(question: str) -> Check:
+    """Return the check that a question of ``python -m fuzz questions`` is answered right."""
+
+    def check(scene: Scene, random: Random) -> str:  # noqa: ARG001
+        """A question of ``python -m fuzz questions``, which draws its own cases."""
+        checked = QUESTIONS[question](random)
+        _raise(question, checked.fault, checked.to_json())
+        return checked.kind
+
+    return check
+
+
+def descriptions_change_nothing(scene: Scene, random: Random) -> str:  # noqa: ARG001
+    """Answers are the same if edges are cut, rings renumbered or reversed, bodies joined, ..."""
+    seed, draw = random.randrange(SEEDS), random.choice(list(SCENES))
+    chosen = random.choice(list(TRANSFORMATIONS))
+
+    def is_wanted(question: str, transformation: str) -> bool:  # noqa: ARG001
+        return transformation == chosen
+
+    asked = 0
+    for question, _, fault in run.check(0, seed, is_wanted, draw=SCENES[draw]):
+        asked += 1
+        if fault is not None:
+            case = f"{fault.old.to_json()} became {fault.new.to_json()}"
+            _raise(f"{question}, {chosen}", fault.why, case)
+    refuse_unless(asked)
+    return f"{draw}, {chosen}"
 
 
 def filters_say_what_is_true(scene: Scene, random: Random) -> str:  # noqa: ARG001

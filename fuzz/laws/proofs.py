@@ -9,9 +9,10 @@ import exactpt
 from exactpt import AuditError, BudgetExceeded, InputError, Proof, Scene, proof_scene
 from fuzz.laws.law import check_equal
 from fuzz.laws.questions import contact_kind, contact_value
-from fuzz.witnesses import Difference, LeftOutError, tilings_of
+from fuzz.laws.tilings import a_tiling
+from fuzz.witnesses import Difference, LeftOutError
 
-__all__ = ["certificates_are_accepted"]
+__all__ = ["certificates_are_accepted", "proofs_are_accepted"]
 
 HEADER: Final = 2
 """Number of lines of a certificate that are not damaged: the format, the hash of the scene."""
@@ -19,24 +20,27 @@ HEADER: Final = 2
 
 def certificates_are_accepted(scene: Scene, random: Random) -> str:
     """A certificate is accepted and has the first contact; a damaged one states nothing false."""
-    proof, form = _a_proof(scene, random)
-    proof.check()
-    contact = exactpt.first_contact(scene)
-    check_equal(f"contact of a {form}", proof.contact and proof.contact.time,
-                contact and contact.time)  # fmt: skip
-    if contact is not None:
-        _check_damaged(proof, random)
-    return f"{form}, {contact_kind(contact_value(contact))}"
-
-
-def _a_proof(scene: Scene, random: Random) -> tuple[Proof, str]:
-    names = tilings_of(scene)
-    if names and random.random() < 0.5:
-        return exactpt.prove(scene, tiling=random.choice(names)), "proof"
     try:
-        return exactpt.certify(scene), "certificate"
+        certificate = exactpt.certify(scene)
     except (InputError, BudgetExceeded):
         raise LeftOutError from None  # bodies, or a closeness, that no certificate is about yet
+    return _checked(scene, certificate, random)
+
+
+def proofs_are_accepted(scene: Scene, random: Random) -> str:
+    """A proof by a tiling is accepted and has the first contact; a damaged one states no more."""
+    tiling = a_tiling(scene, random)
+    return f"{tiling}, {_checked(scene, exactpt.prove(scene, tiling=tiling), random)}"
+
+
+def _checked(scene: Scene, proof: Proof, random: Random) -> str:
+    """Check a proof; return the kind of its contact."""
+    proof.check()
+    contact = exactpt.first_contact(scene)
+    check_equal("contact", proof.contact and proof.contact.time, contact and contact.time)
+    if contact is not None:
+        _check_damaged(proof, random)
+    return contact_kind(contact_value(contact))
 
 
 def _check_damaged(proof: Proof, random: Random) -> None:

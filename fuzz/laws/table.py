@@ -16,7 +16,9 @@ from fuzz.laws.costs import (
 )
 from fuzz.laws.distances import clearance_is_the_distance
 from fuzz.laws.drawn import (
+    as_asked,
     curves_are_within_their_errors,
+    descriptions_change_nothing,
     drawings_have_their_parts,
     filters_say_what_is_true,
     hostile_files_are_refused,
@@ -29,7 +31,7 @@ from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_writte
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
-from fuzz.laws.proofs import certificates_are_accepted
+from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
     living_run_is_static,
@@ -72,10 +74,10 @@ LAWS: Final[dict[str, Law]] = {
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
     ),
     "tiling/static": Law(
-        kinetic_is_static, (*FAMILY, "tiny/fractions", "scope", "corpus"), share=4
+        kinetic_is_static, (*FAMILY, "tiny/fractions", "scope", "corpus"), share=6
     ),
     "tiling/filters": Law(
-        filters_decide_exactly, (*FAMILY, "family+nudged", "tiny/fractions"), share=2
+        filters_decide_exactly, (*FAMILY, "family+nudged", "tiny/fractions"), share=4
     ),
     "contacts/reference": Law(
         as_defined("contacts"),
@@ -144,6 +146,9 @@ LAWS: Final[dict[str, Law]] = {
     "certificate/checked": Law(
         certificates_are_accepted, ("family", "tiny/pair", "pair+awkward", "scope"), most=30
     ),
+    "proof/checked": Law(
+        proofs_are_accepted, ("family", "tiny/pair", "scope", "family+awkward"), share=2, most=40
+    ),
     "budget/true": Law(
         ended_search_is_true,
         (
@@ -168,9 +173,9 @@ LAWS: Final[dict[str, Law]] = {
         share=0.5,
         most=12,
     ),
-    "enclosed/spins": Law(bounds_contain_the_truth, ("spinning",), most=60),
-    "enclosed/poses": Law(bounds_contain_the_truth, ("poses",)),
-    "enclosed/errors": Law(stated_errors_are_kept, ("own",)),
+    "enclosed/spins": Law(bounds_contain_the_truth, ("spinning",), share=0.5, most=60),
+    "enclosed/poses": Law(bounds_contain_the_truth, ("poses",), share=0.5),
+    "enclosed/errors": Law(stated_errors_are_kept, ("own",), share=0.5),
     "enclosed/curves": Law(curves_are_within_their_errors, ("own",), share=0.5),
     "simulation/bounces": Law(
         bounces_are_first_contacts, ("pair", "tiny/fractions", "tiny/crowded", "family"), most=24
@@ -185,6 +190,13 @@ LAWS: Final[dict[str, Law]] = {
         ("pair", "tiny/pair", "pair+rounded", "tiny/pair+rounded", "family/chains_on_grid"),
         most=60,
     ),
+    "arrays/adversary": Law(as_asked("arrays"), ("own",), share=0.5),
+    "batch/adversary": Law(as_asked("batch"), ("own",), share=0.5),
+    "first contact/small scope": Law(as_asked("small-scope"), ("own",)),
+    "first contact/far": Law(as_asked("convoy"), ("own",), share=0.5),
+    "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
+    "tiling/flips": Law(as_asked("flips"), ("own",)),
+    "description/same": Law(descriptions_change_nothing, ("own",)),
     "exchange/scenes": Law(
         scene_is_read_as_written,
         ("family", "tiny/pair+awkward", "radii", "rings", "spinning", "poses", "tiny/rings"),
@@ -193,7 +205,7 @@ LAWS: Final[dict[str, Law]] = {
     "exchange/results": Law(
         results_survive_a_pickle, ("tiny/pair", "pair", "tiny/meeting+awkward"), share=0.5
     ),
-    "exchange/hostile files": Law(hostile_files_are_refused, ("own",)),
+    "exchange/hostile files": Law(hostile_files_are_refused, ("own",), share=0.5),
     "exchange/drawings": Law(drawings_have_their_parts, ("own",), share=0.5),
     "scene/touching rings": Law(touching_rings_are_valid_or_not, ("own",), share=0.5),
     "filters/adversary": Law(filters_say_what_is_true, ("own",)),
