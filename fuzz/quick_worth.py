@@ -82,8 +82,14 @@ def planted() -> list[Fault]:
             for name, mistake in PLANTED.items()]  # fmt: skip
 
 
+_ENTERED: Final[list[object]] = []
+"""Contexts in which mistakes are made: one that nobody refers to is closed, and unmade, at once."""
+
+
 def _enter(make: Callable[[], Any]) -> None:
-    make().__enter__()
+    context = make()
+    _ENTERED.append(context)
+    context.__enter__()
 
 
 def mutants(number: int, seed: int) -> list[Fault]:

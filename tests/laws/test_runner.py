@@ -1,5 +1,6 @@
 """The runner of laws: cases are texts, faults are shrunk and kept, a new source moves few cases."""
 
+import gc
 import json
 import os
 from fractions import Fraction
@@ -9,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt import Body, InputError, Scene, Translation, first_contact
+from exactpt.tiling.repairs import Repairs
 from fuzz import quick_worth
 from fuzz.laws import command, law, power, runner, scenes, table
 from fuzz.laws.known import Known
@@ -118,6 +120,19 @@ def test_power_finds_a_planted_mistake_and_none_without_one():
     assert found.cases < 20
     assert unfound.law == ""
     assert unfound.cases > 0
+
+
+@pytest.mark.plain
+def test_bug_mistake_of_an_edited_function_stays_made():
+    """Its context was closed as soon as nobody referred to it: the mistake was never made."""
+    (mistake,) = [one for one in quick_worth.planted() if "end of a corner" in one.name]
+    right = Repairs._repair_corner.__code__
+    try:
+        mistake.make()
+        gc.collect()
+        assert Repairs._repair_corner.__code__ is not right
+    finally:
+        Repairs._repair_corner.__code__ = right
 
 
 def test_power_of_a_process_that_dies_counts_as_found():
