@@ -35,11 +35,11 @@ __all__ = [
 def audit(simulation: Simulation) -> None:
     """Check the present state of a run against the tiling built from nothing.
 
-    The tiling of the run must equal the one built at a rational time between now and the next
-    event; the pending certificates those certified anew; the coefficients of all trajectories in
-    doubles those computed anew. After each step, so is every state of a run audited. Where bodies
-    touch at the start there is no tiling, and after a contact there are no later states: then
-    less is compared, or nothing.
+    The tiling of the run must equal the one built now, if now is rational, and the one built at a
+    rational time between now and the next event. The pending certificates must be those certified
+    anew, and the coefficients of all trajectories in doubles those computed anew. After each step,
+    so is every state of a run audited. Where bodies touch at the start there is no tiling, and
+    after a contact there are no later states: then less is compared, or nothing.
 
     An audit takes as long as building the tiling, and does not change the run.
 
@@ -62,8 +62,11 @@ def audit(simulation: Simulation) -> None:
     if tiling is None:
         return
     audit_places(tiling.vertices)
-    if simulation.contact is None:
-        _audit_until(tiling, simulation.scene.exact_end)
+    if simulation.contact is not None:
+        return
+    if tiling.now.simplified().is_rational:
+        audit_now(tiling)
+    _audit_until(tiling, simulation.scene.exact_end)
 
 
 def _audit_until(tiling: Tiling, end: QQ) -> QQ | None:

@@ -45,9 +45,6 @@ SHAPES: Final = (
 )
 DENOMINATORS: Final = (3, 7, 9, 13)
 CROWDS: Final = ("convex", "row", "convoy", "small_grid")
-WHOLE: Final = ("convex", "row", "convoy", "ballistic", "turning", "deforming", "pieces", "stars",
-                "frames", "discs", "linear_points")  # fmt: skip
-"""Families of whole scenes about which costs are compared."""
 
 
 def _of_family(name: str) -> Source:
@@ -108,7 +105,7 @@ SOURCES: Final[dict[str, Source]] = {
     "scope": _of_scope,
     "corpus": _of_corpus,
     "crowd": _crowd,
-    **{f"whole/{name}": _whole(name) for name in WHOLE},
+    **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     "far/relay": relay,
     "far/convoy": convoy,
     "spinning": spinning_scene,

@@ -38,7 +38,6 @@ from fuzz.laws.runs import (
     population_is_a_new_scene,
     restored_run_goes_on,
 )
-from fuzz.laws.scenes import names_of
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
 from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
 from fuzz.laws.together import (
@@ -55,8 +54,15 @@ MOVING: Final = ("turning", "deforming", "curved", "pieces")
 TINY: Final = ("tiny/pair", "tiny/touching", "tiny/meeting", "tiny/fractions", "scope")
 CLOSE: Final = ("tiny/pair+awkward", "tiny/meeting+awkward", "tiny/fractions", "pair",
                 "pair+awkward", "pair+nudged", "tiny/pair+nudged")  # fmt: skip
-WHOLE: Final = names_of("whole")
+COUNTED: Final = tuple(
+    f"whole/{name}"
+    for name in ("convex", "row", "convoy", "ballistic", "turning", "deforming", "pieces",
+                 "stars", "frames", "discs", "linear_points")
+)  # fmt: skip
+"""Whole scenes of families, in which costs are compared."""
 FAMILY: Final = ("family", "family+awkward", "family+thin")
+TILED: Final = ("whole", *FAMILY)
+"""Faults of tilings need many bodies; those of filters and of thin bodies need few."""
 
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
@@ -73,11 +79,9 @@ LAWS: Final[dict[str, Law]] = {
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
     ),
-    "tiling/static": Law(
-        kinetic_is_static, (*FAMILY, "tiny/fractions", "scope", "corpus"), share=6
-    ),
+    "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "corpus"), share=6),
     "tiling/filters": Law(
-        filters_decide_exactly, (*FAMILY, "family+nudged", "tiny/fractions"), share=4
+        filters_decide_exactly, (*TILED, "family+nudged", "tiny/fractions"), share=4
     ),
     "contacts/reference": Law(
         as_defined("contacts"),
@@ -147,7 +151,7 @@ LAWS: Final[dict[str, Law]] = {
         certificates_are_accepted, ("family", "tiny/pair", "pair+awkward", "scope"), most=30
     ),
     "proof/checked": Law(
-        proofs_are_accepted, ("family", "tiny/pair", "scope", "family+awkward"), share=2, most=40
+        proofs_are_accepted, ("whole", "family", "tiny/pair", "scope", "family+awkward"), share=2
     ),
     "budget/true": Law(
         ended_search_is_true,
@@ -222,9 +226,9 @@ LAWS: Final[dict[str, Law]] = {
     **{
         f"cost/{name}": Law(
             bystander_costs_nothing(bystander, "--method", "pairs"),
-            WHOLE,
+            COUNTED,
             share=0.5,
-            cases=2 * len(WHOLE),
+            cases=2 * len(COUNTED),
         )
         for name, bystander in (
             ("far body", one_far_body),

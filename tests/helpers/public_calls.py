@@ -120,6 +120,13 @@ def fresh(w, name):
     return path
 
 
+def ended(w):
+    """Return the number of looks at the clock of a search."""
+    with exactpt.testing.ending_at(None) as clock:
+        exactpt.first_contact(w.scene, max_seconds=60)
+    return clock.looks
+
+
 CALLS = {
     # exactpt: one entry for each name, under this name
     "Affine": lambda w: exactpt.Affine([[[1, w.unit], 0], [0, 1]], x=[0, w.unit]),
@@ -194,7 +201,9 @@ CALLS = {
     "testing.assert_same_contact": lambda w: exactpt.testing.assert_same_contact(
         w.scene, exactpt.first_contact(w.scene)
     ),
+    "testing.audit": lambda w: exactpt.testing.audit(w.simulation()),
     "testing.check": checked,
+    "testing.ending_at": ended,
     "testing.make_question": question,
     "testing.shrink": lambda w: exactpt.testing.shrink(
         w.scene, lambda scene: exactpt.first_contact(scene) is not None
