@@ -198,6 +198,8 @@ LAWS: Final[dict[str, Law]] = {
     "batch/adversary": Law(as_asked("batch"), ("own",), share=0.5),
     "first contact/small scope": Law(as_asked("small-scope"), ("own",)),
     "first contact/far": Law(as_asked("convoy"), ("own",), share=0.5),
+    "distance/moving": Law(as_asked("moving"), ("own",)),
+    "budget/looks": Law(as_asked("budgets"), ("own",)),
     "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
     "tiling/flips": Law(as_asked("flips"), ("own",)),
     "description/same": Law(descriptions_change_nothing, ("own",)),
