@@ -13,7 +13,8 @@ from typing import Final, NamedTuple
 
 from exactpt import InputError, Scene
 from exactpt.testing import shrink
-from fuzz.laws.scenes import drawn, made
+from fuzz.laws.known import reason_of
+from fuzz.laws.scenes import drawn, is_source, made
 from fuzz.laws.table import LAWS
 from fuzz.limits import TooSlow, limit, signed
 from fuzz.witnesses import Difference, LeftOutError
@@ -36,6 +37,7 @@ USUAL: Final = 20.0
 NOT_ASKED: Final = "not asked"
 NO_SCENE: Final = "no such scene"
 TOO_LARGE: Final = "too large"
+KNOWN_FAULT: Final = "known to be broken"
 SILENT: Final = (NOT_ASKED, NO_SCENE, TOO_LARGE)
 """Outcomes of cases in which a law says nothing."""
 
@@ -78,6 +80,8 @@ class Case(NamedTuple):
         except ValueError:
             wanted = "write it as LAW SOURCE:SEED:NUMBER"
             raise InputError(f"case: not a place, got {place!r}; {wanted}") from None
+        if not is_source(source):
+            raise InputError(f"case: unknown source or change, got {source!r}")
         return cls(law, source, seed, number)
 
 
@@ -239,7 +243,7 @@ class Tally:
     Attributes:
         outcomes: by law, the number of cases with each outcome.
         seconds: by law, the processor time.
-        faults: by law, the number of faults.
+        faults: by law, the number of faults that are not known.
     """
 
     outcomes: dict[str, Counter[str]] = field(default_factory=dict)
@@ -249,9 +253,11 @@ class Tally:
     def add(self, looked: Looked) -> None:
         """Count a case."""
         law = looked.case.law
-        self.outcomes.setdefault(law, Counter())[looked.outcome] += 1
+        is_known = looked.fault is not None and reason_of(str(looked.case)) is not None
+        outcome = KNOWN_FAULT if is_known else looked.outcome
+        self.outcomes.setdefault(law, Counter())[outcome] += 1
         self.seconds[law] = self.seconds.get(law, 0.0) + looked.seconds
-        self.faults[law] += looked.fault is not None
+        self.faults[law] += looked.fault is not None and not is_known
 
     def said(self, law: str) -> int:
         """Return the number of cases about which a law said something."""

@@ -30,7 +30,7 @@ from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.questions.touching_rings import touching_pair
 from fuzz.small_scope.scope import planned
 
-__all__ = ["KINDS", "SOURCES", "drawn", "made", "names_of"]
+__all__ = ["KINDS", "SOURCES", "drawn", "is_source", "made", "names_of"]
 
 Source: TypeAlias = Callable[[Random], Scene]
 
@@ -148,6 +148,12 @@ def names_of(pattern: str) -> tuple[str, ...]:
     if not names:
         raise KeyError(pattern)
     return tuple("+".join([name, *changes]) for name in names)
+
+
+def is_source(text: str) -> bool:
+    """Return True if a text is the name of one source, with changes that exist."""
+    name, *changes = text.split("+")
+    return name in SOURCES and all(change in CHANGES for change in changes)
 
 
 def made(source: str, random: Random) -> Scene:

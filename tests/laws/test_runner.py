@@ -50,6 +50,8 @@ def test_case_text_is_read_as_it_is_written():
         ("no such law tiny/pair:0:0", "case: unknown law, got 'no such law'"),
         ("tiling/static tiny/pair:0", "case: not a place, got 'tiny/pair:0'"),
         ("tiling/static tiny/pair:0:x", "write it as LAW SOURCE:SEED:NUMBER"),
+        ("tiling/static tiny/none:0:1", "unknown source or change, got 'tiny/none'"),
+        ("tiling/static tiny/pair+no:0:1", r"unknown source or change, got 'tiny/pair\+no'"),
     ],
 )
 def test_case_text_of_another_form_is_refused(text, words):
@@ -256,11 +258,13 @@ def test_known_case_that_holds_fails_the_run(monkeypatch):
 
 
 def test_known_case_that_is_broken_does_not_fail_the_run(broken, monkeypatch):
-    monkeypatch.setattr(command, "reason_of", lambda _: "a reason")
+    for module in (command, runner):
+        monkeypatch.setattr(module, "reason_of", lambda _: "a reason")
 
     result = invoked(command.run, broken, "--seconds", "0.2", "--seed", "0")
 
     assert result.exit_code == 0
+    assert "known to be broken" in result.output
 
 
 # Changes
