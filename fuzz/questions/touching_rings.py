@@ -40,9 +40,10 @@ from exactpt import (
 from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.motions import Motion
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
+from exactpt.testing.reference import new_contact
 from exactpt.testing.scenes.rings import as_parts, middle_of, touching_parts
-from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.questions.renewal import first_new_contact
 
 __all__ = [
     "dissected", "is_valid_by_cells", "random_parts", "touching_pair", "wrong_answer",
@@ -351,9 +352,9 @@ def _differences(random: Random, scene: Scene) -> Iterator[str]:
     """Yield differences of answers from those of the reference, and from those of the pieces."""
     a, b = scene.bodies
     pieces = [Scene(two, scene.time) for two in product(dissected(a), dissected(b))]
-    contact, expected = first_contact(scene), first_contact_allpairs(scene)
-    if what := contrast(expected, contact):
-        yield f"first_contact: {what}: {contact}, not {expected}"
+    contact, expected = first_contact(scene), reference.first_contact(scene)
+    if difference := disagreement(expected, contact):
+        yield f"first_contact: {difference}"
     times = [met.time for two in pieces if (met := first_contact(two)) is not None]
     time = None if contact is None else contact.time
     if time != min(times, default=None):
@@ -369,8 +370,8 @@ def _differences(random: Random, scene: Scene) -> Iterator[str]:
         yield "a contact of a body with itself"
     # The definition of new contacts knows no radii, and takes long for motions of many pieces.
     if not (scene.has_radius or _is_approximated(a) or _is_approximated(b)):
-        new, new_expected = first_contact(scene, after_start=True), first_new_contact(scene)
-        if (None if new is None else new.time) != (new_expected and new_expected[0]):
+        new, new_expected = first_contact(scene, after_start=True), new_contact(a, b, scene.time)
+        if (None if new is None else new.time) != new_expected:
             yield f"after_start: {new}, not {new_expected}"
     yield from _wrong_intervals(scene, pieces)
     yield from _wrong_distances(random, scene, pieces)

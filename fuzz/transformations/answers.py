@@ -19,7 +19,7 @@ from exactpt.arrays import first_contacts
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from fuzz.questions.reference import nearest
+from exactpt.testing import reference
 from fuzz.small_scope.by_arrays import suits
 from fuzz.transformations.images import Feature, Side
 
@@ -309,7 +309,7 @@ def _check_apart(side: Side, d: QQ) -> None:
         for b in bodies[:k]:
             if side.groups[a.name] == side.groups[b.name]:
                 reach = a.exact_radius + b.exact_radius + d
-                if nearest(a, b, side.scene.exact_start)[0] <= reach**2:
+                if reference.nearest(a, b, side.scene.exact_start).core_squared <= reach**2:
                     raise NotAskedError
 
 
