@@ -23,12 +23,13 @@ from exactpt.testing.reference.contact import (
     first_meeting,
     incidences,
 )
-from exactpt.testing.reference.nearest import Nearest, Place, nearest
+from exactpt.testing.reference.nearest import Least, Nearest, Place, least_distance, nearest
 from exactpt.testing.reference.new import first_new_contact, new_contact, overlap
 from exactpt.testing.reference.within import first_within, intervals_within
 
 __all__ = [
     "FirstContact",
+    "Least",
     "NamedIncidence",
     "Nearest",
     "Place",
@@ -39,6 +40,7 @@ __all__ = [
     "first_within",
     "incidences",
     "intervals_within",
+    "least_distance",
     "nearest",
     "new_contact",
     "overlap",

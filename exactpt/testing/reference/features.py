@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from itertools import combinations, product
 from typing import NamedTuple
 
-from exactpt.kernel.integer_polynomial import IntPoly, multiply, scale, subtract
+from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.body import Body
 from exactpt.motion.track import Track, difference, dot, orientation_polynomial, vector
@@ -130,6 +130,12 @@ def excess(ratio: Ratio, number: QQ) -> IntPoly:
         scale(ratio.numerator, ZZ(number.denominator)),
         scale(ratio.denominator, ZZ(number.numerator)),
     )
+
+
+def slope(ratio: Ratio) -> IntPoly:
+    """Return a polynomial with the sign of the derivative of a quotient."""
+    n, d = ratio
+    return subtract(multiply(derivative(n), d), multiply(n, derivative(d)))
 
 
 def sides_of_foot(corner: Corner) -> tuple[IntPoly, IntPoly]:

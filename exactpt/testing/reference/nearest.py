@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
 
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic_value import quotient_at
+from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.motion.body import Body
-from exactpt.testing.reference.shapes import bodies_meet, squared_distance, squared_to_interior
+from exactpt.testing.reference.features import (
+    corners,
+    has_foot,
+    sides_of_foot,
+    slope,
+    squared_from_line,
+    squared_of_vertices,
+)
+from exactpt.testing.reference.shapes import (
+    Points,
+    bodies_meet,
+    squared_distance,
+    squared_to_interior,
+)
+from exactpt.testing.reference.times import Piece, critical_times, pieces
+from exactpt.testing.reference.within import first_within
 
-__all__ = ["Nearest", "Place", "nearest"]
+__all__ = ["Least", "Nearest", "Place", "least_distance", "nearest"]
 
 
 class Place(NamedTuple):
@@ -32,6 +50,18 @@ class Nearest(NamedTuple):
 
     core_squared: Fraction
     features: frozenset[tuple[Place, Place]]
+
+
+class Least(NamedTuple):
+    """The least distance of two bodies in a time span, and the first time of it.
+
+    Attributes:
+        time: the exact time.
+        core_squared: the square of the distance of the cores, the bodies without their radii.
+    """
+
+    time: AlgebraicNumber
+    core_squared: AlgebraicNumber
 
 
 def nearest(a: Body, b: Body, at: Rational) -> Nearest:
@@ -57,9 +87,7 @@ def nearest(a: Body, b: Body, at: Rational) -> Nearest:
     return Nearest(fraction(least), features)
 
 
-def _distances(
-    a: Body, b: Body, p: list[tuple[QQ, QQ]], q: list[tuple[QQ, QQ]]
-) -> Iterator[tuple[QQ, tuple[Place, Place]]]:
+def _distances(a: Body, b: Body, p: Points, q: Points) -> Iterator[tuple[QQ, tuple[Place, Place]]]:
     """Yield the squared distance of every two vertices, and of every vertex above an edge."""
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         yield squared_distance(u, v), (Place(i, None), Place(j, None))
@@ -71,3 +99,49 @@ def _distances(
         squared = squared_to_interior(v, p[k], p[l])
         if squared is not None:
             yield squared, (Place(None, e), Place(j, None))
+
+
+def least_distance(a: Body, b: Body, time: Sequence[Rational]) -> Least:
+    """Return the least distance of two bodies in a time span.
+
+    If they share a point, it is 0, first when they first do. If not, the distance is that of two
+    vertices, or of a vertex and an edge above which it is. Such a distance is least where its
+    derivative is zero, or where a motion begins or ends. Where the foot comes to an end of the
+    edge, the distance from that vertex takes over with the same derivative.
+
+    >>> from exactpt import Body, Translation
+    >>> ball = Body("ball", [(0, 3)], Translation([-4, 1]))
+    >>> least_distance(ball, Body("point", [(0, 0)]), (0, 10))
+    Least(time=AlgebraicNumber('4'), core_squared=AlgebraicNumber('9'))
+
+    Args:
+        a: a body.
+        b: another one.
+        time: the start and the end of the time span.
+    """
+    start, end = map(rational, time)
+    first = first_within(a, b, time, 0)
+    if first is not None:
+        return Least(first, AlgebraicNumber(0))
+    candidates = [least for piece in pieces(a, b, start, end) for least in _least_ones(a, b, piece)]
+    squared = min(least.core_squared for least in candidates)
+    return Least(min(t for t, value in candidates if value == squared), squared)
+
+
+def _least_ones(a: Body, b: Body, piece: Piece) -> Iterator[Least]:
+    """Yield the distance of every two features at all times at which it may be the least."""
+    p, q = piece.first, piece.second
+    for u, v in product(p, q):
+        ratio = squared_of_vertices(u, v)
+        for t in _candidates([slope(ratio)], piece):
+            yield Least(t, quotient_at(ratio.numerator, ratio.denominator, t))
+    for corner in corners(a, b, p, q):
+        ratio = squared_from_line(corner)
+        for t in _candidates([slope(ratio), *sides_of_foot(corner)], piece):
+            if has_foot(t, corner):
+                yield Least(t, quotient_at(ratio.numerator, ratio.denominator, t))
+
+
+def _candidates(polynomials: Iterable[IntPoly], piece: Piece) -> list[AlgebraicNumber]:
+    begin = AlgebraicNumber(piece.begin)
+    return [begin, *critical_times(polynomials, piece.begin, piece.end)]
