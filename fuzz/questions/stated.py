@@ -18,7 +18,7 @@ error may be at one body or at both. Bodies touch, overlap by less than E, by E 
 inside each other, or are a little apart.
 
 **Later**, if both bodies are moved by constant vectors of the lengths of their errors, their first
-contact is between the bounds. It is computed by `fuzz.questions.true_turns`.
+contact is between the bounds. It is computed by `fuzz.references.true_turns`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from exactpt.motion.pose_path import PosePath
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.testing import reference
-from fuzz.questions.true_turns import DIGITS, Truth, UndecidedError, real
+from fuzz.references.true_turns import DIGITS, Truth, UndecidedError, real
 
 __all__ = ["Stated", "Wrong", "stated_case", "wrong_after_moves", "wrong_at_the_start"]
 
