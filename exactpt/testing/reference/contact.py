@@ -8,7 +8,7 @@ compared as sets, at and between all times at which that can change.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations, combinations_with_replacement, product
+from itertools import combinations, combinations_with_replacement, islice, product
 from typing import NamedTuple, TypeAlias
 
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -223,7 +223,7 @@ def _times_on_edges(found: Iterable[Corner], piece: Piece) -> Iterator[Algebraic
         f = orientation_polynomial(a, b, v)
         if f:
             on_line = roots_in(f, piece.begin, piece.end)
-            yield from [t for t in on_line if lies_on(v, a, b, t)][:1]
+            yield from islice((t for t in on_line if lies_on(v, a, b, t)), 1)
             continue
         for end in (a, b):
             yield from [root.time for root in common_roots(*vector(end, v), begin, piece.end)][:1]
@@ -243,7 +243,7 @@ def _times_at_distance(a: Body, b: Body, piece: Piece) -> Iterator[AlgebraicNumb
     for corner in corners(a, b, p, q):
         f = excess(squared_from_line(corner), squared)
         at_distance = roots_in(f, piece.begin, piece.end)
-        yield from [t for t in at_distance if has_foot(t, corner)][:1]
+        yield from islice((t for t in at_distance if has_foot(t, corner)), 1)
 
 
 # Incidences at a time

@@ -37,12 +37,15 @@ def segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool:
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
     """Return True if the closed segments ab and cd share a point."""
+    c_side, d_side = orientation(a, b, c), orientation(a, b, d)
+    a_side, b_side = orientation(c, d, a), orientation(c, d, b)
+    if c_side * d_side < 0 and a_side * b_side < 0:
+        return True
     return (
-        segments_cross(a, b, c, d)
-        or is_on_segment(c, a, b)
-        or is_on_segment(d, a, b)
-        or is_on_segment(a, c, d)
-        or is_on_segment(b, c, d)
+        (c_side == 0 and between(a, b, c))
+        or (d_side == 0 and between(a, b, d))
+        or (a_side == 0 and between(c, d, a))
+        or (b_side == 0 and between(c, d, b))
     )
 
 
