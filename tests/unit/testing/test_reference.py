@@ -6,9 +6,10 @@ from functools import partial
 from itertools import combinations
 from random import Random
 
+import mpmath
 import pytest
 
-from exactpt import AlgebraicNumber, Body, InputError, Scene
+from exactpt import AlgebraicNumber, Body, InputError, Scene, Spin
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.testing import reference
 from exactpt.testing.reference import (
@@ -19,6 +20,7 @@ from exactpt.testing.reference import (
     shapes,
     space,
     times,
+    turning,
     within,
 )
 from exactpt.testing.reference.times import tracks_after
@@ -27,6 +29,7 @@ from fuzz.questions.free_space import some_point
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
+from fuzz.references.true_turns import DIGITS, Truth, real
 
 TINY = (pair_scene, touching_scene, crowded_scene, distant_scene, rounded_pair)
 
@@ -236,6 +239,27 @@ def a_segment_is_free_if_a_ray_gets_to_its_end(random):
     return hit is not None
 
 
+def a_spin_turns_by_its_angle_within_its_error(random):
+    """By rationals and by mpmath to 600 bits; the pieces of its motion up to its stated error."""
+    pivot = tuple(QQ(random.randint(-6, 6), random.choice([1, 3])) for _ in "xy")
+    omega = QQ(random.randint(-9, 9) or 1, random.choice([1, 2, 7]))
+    error = QQ(1, random.choice([10, 1000, 10**6]))
+    shape = [(random.randint(-9, 9), random.randint(-9, 9)) for _ in range(2)]
+    if shape[0] == shape[1]:
+        return False
+    body = Body("a", shape, Spin(omega, pivot, time=(0, 4), error=error))
+    t = some_time(random, (0, 4))
+    places = turning.turned(shape, pivot, omega * t, bits=600)
+    with mpmath.workdps(DIGITS + 20):
+        (true,) = Truth(Scene([body], (0, 4))).bodies
+        for (x, y), exact in zip(places, true.places(real(t)), strict=True):
+            assert abs(mpmath.mpc(real(x), real(y)) - exact) < mpmath.mpf(2) ** -590
+    for (x, y), (u, v), at in zip(places, body.at(t), shape, strict=True):
+        arm = shapes.squared_distance(at, pivot)
+        assert (x - u) ** 2 + (y - v) ** 2 <= arm * error**2 + QQ(1, 2**500)
+    return t > 0
+
+
 LAWS = {
     law.__name__: law
     for law in (
@@ -251,6 +275,7 @@ LAWS = {
         bodies_that_overlap_share_a_point,
         inside_by_windings_is_inside_by_crossings,
         a_segment_is_free_if_a_ray_gets_to_its_end,
+        a_spin_turns_by_its_angle_within_its_error,
     )
 }
 """Each returns whether the case says much: a contact, a distance, a point inside."""
@@ -266,6 +291,14 @@ def test_two_definitions_of_one_question_agree(law, count):
 
 
 # Mistakes in the definitions
+
+
+def backwards(angle, bits):
+    """The cosine and the sine of minus an angle."""
+    return COSINE_AND_SINE(-angle, bits)
+
+
+COSINE_AND_SINE = turning.cosine_and_sine
 
 
 def never(*_):
@@ -320,6 +353,7 @@ NEW = a_new_contact_is_the_first_one_if_there_is_none_at_the_start
 OVERLAP = bodies_that_overlap_share_a_point
 WINDINGS = inside_by_windings_is_inside_by_crossings
 SEGMENT = a_segment_is_free_if_a_ray_gets_to_its_end
+SPIN = a_spin_turns_by_its_angle_within_its_error
 NEAREST = sys.modules[
     "exactpt.testing.reference.nearest"
 ]  # the package has a function of that name
@@ -354,6 +388,7 @@ MISTAKES = {
     "bodies are never apart": (new, "bodies_meet", always, NEW),
     "no point is inside": (space, "is_inside", never, WINDINGS),
     "a way through bodies": (space, "segments_cross", never, SEGMENT),
+    "a sine of the opposite sign": (turning, "cosine_and_sine", backwards, SPIN),
     "a sector is walled up": (paths, "crosses", always, SEGMENT),
 }
 """Where a mistake is planted, and the law that finds it."""
