@@ -17,7 +17,7 @@ from itertools import count, pairwise, product
 from typing import TypeAlias
 
 from exactpt.geometry.predicates import Point, crossing_of_lines, orientation
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.testing.reference.shapes import (
     is_on_segment,
     segments_cross,
@@ -28,9 +28,10 @@ from exactpt.testing.reference.shapes import (
 __all__ = ["chains_cross"]
 
 Path: TypeAlias = Sequence[Point]
+Given: TypeAlias = "tuple[Rational, Rational]"
 
 
-def chains_cross(p: Path, q: Path) -> bool:
+def chains_cross(p: Sequence[Given], q: Sequence[Given]) -> bool:
     """Return True if two simple chains cross.
 
     >>> chains_cross([(0, 0), (2, 2)], [(0, 2), (2, 0)]), chains_cross([(0, 0), (2, 2)], [(0, 0)])
@@ -40,7 +41,8 @@ def chains_cross(p: Path, q: Path) -> bool:
         p: the vertices of one; of a point, one.
         q: those of the other.
     """
-    u, v = _refined(p, q), _refined(q, p)
+    first, second = ([(rational(x), rational(y)) for x, y in chain] for chain in (p, q))
+    u, v = _refined(first, second), _refined(second, first)
     return any(_crossings(a, b) % 2 for a, b in _pieces(u, v))
 
 

@@ -11,6 +11,7 @@ from random import Random
 from typing import Any
 
 from exactpt.geometry.predicates import orient2d
+from exactpt.kernel.numbers import QQ
 from exactpt.testing.reference.shapes import is_on_segment
 from exactpt.testing.reference.space import OpenChain, Places, Point, Rings, owner, rings_of
 
@@ -42,7 +43,7 @@ def inner_point(points: list[Point], rng: Random | None) -> Point:
     n = len(points)
     if n < 3 or isinstance(points, OpenChain):
         ends = points[:2]
-        return tuple(sum(c) / len(ends) for c in zip(*ends, strict=True))
+        return tuple(sum(c) * QQ(1, len(ends)) for c in zip(*ends, strict=True))
     assert rng is not None  # noqa: S101 - the caller's part
     while True:
         i = rng.randrange(n)
@@ -51,8 +52,8 @@ def inner_point(points: list[Point], rng: Random | None) -> Point:
         a, b, c = (points[j] for j in (ring[k - 1], i, ring[(k + 1) % len(ring)]))
         u, v, w = (rng.randint(1, 997) for _ in range(3))
         s, far = u + v + w, rng.choice([1, 2, 4, 8, 64])
-        m = tuple((a[k] * u + b[k] * v + c[k] * w) / s for k in (0, 1))
-        p = tuple(b[k] + (m[k] - b[k]) / far for k in (0, 1))
+        m = tuple((a[k] * u + b[k] * v + c[k] * w) * QQ(1, s) for k in (0, 1))
+        p = tuple(b[k] + (m[k] - b[k]) * QQ(1, far) for k in (0, 1))
         if owner(p, {"": points}) == ("", None, None):
             return p
 
