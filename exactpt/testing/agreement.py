@@ -20,8 +20,9 @@ class Disagreement(NamedTuple):
     """An answer that is not the one by definition.
 
     Attributes:
-        what: "missed" or "found" if one of the two is None; else the attribute that differs, of
-            first contacts "time", "kind", "incidences" or "initial_pairs"; "value" of others.
+        what: "missed" or "found" if one of the two is None; "repeated" if a contact has an
+            incidence twice; else the attribute that differs, of first contacts "time", "kind",
+            "incidences" or "initial_pairs"; "value" of other answers.
         expected: the value by definition.
         found: the answer as a plain value.
     """
@@ -51,6 +52,8 @@ def disagreement(expected: object, answer: object) -> Disagreement | None:
         answer: the answer of the package, of any type that `plain` knows.
     """
     found = plain(answer)
+    if isinstance(answer, Contact) and _has_repetitions(answer):
+        return Disagreement("repeated", expected, answer.pairs)
     if expected == found:
         return None
     if expected is None or found is None:
@@ -107,6 +110,12 @@ def plain_contact(contact: Contact | None) -> FirstContact | None:
     incidences = frozenset(map(_incidence, contact.pairs))
     initial_pairs = frozenset(contact.initial_pairs)
     return FirstContact(contact.time, contact.kind, incidences, initial_pairs)
+
+
+def _has_repetitions(contact: Contact) -> bool:
+    incidences = list(map(_incidence, contact.pairs))
+    pairs = contact.initial_pairs
+    return len(incidences) > len(set(incidences)) or len(pairs) > len(set(pairs))
 
 
 def _is_interval(answer: object) -> bool:

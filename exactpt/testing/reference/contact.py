@@ -120,6 +120,9 @@ def first_contact(
         scene: the scene.
         between: the pairs of names that count, twice the same name for a body with itself; all
             if not given.
+
+    Raises:
+        InputError: if there is no body of such a name.
     """
     pairs = _pairs(scene, between)
     of_two = [(a, b) for a, b in pairs if a is not b]
@@ -153,7 +156,7 @@ def _pairs(scene: Scene, between: Iterable[Sequence[str]] | None) -> list[Pair]:
     every = combinations_with_replacement(scene.bodies, 2)
     if between is None:
         return list(every)
-    named = {frozenset(pair) for pair in between}
+    named = {frozenset(scene.body(name).name for name in pair) for pair in between}
     return [(a, b) for a, b in every if frozenset({a.name, b.name}) in named]
 
 
@@ -169,13 +172,15 @@ def _can_touch_itself(scene: Scene, body: Body) -> bool:
     """Return True if a body has no radius, and no two of its rings touch at the start."""
     if body.exact_radius:
         return False
+    if len(body.rings) == 1:
+        return True
     points = body.exact_at(scene.exact_start)
     return not any(
         shapes.is_on_segment(points[v], points[a], points[b])
         for ring in body.rings
         for v in ring
         for a, b in body.edges
-        if len(body.rings) > 1 and a not in ring
+        if a not in ring
     )
 
 
