@@ -281,6 +281,12 @@ LAWS = {
 """Each returns whether the case says much: a contact, a distance, a point inside."""
 
 
+@pytest.mark.long(
+    "a_first_approach_is_the_start_of_an_interval-40",
+    "contacts_are_distances_of_zero-40",
+    "first_contacts_agree-40",
+    "the_least_distance_is_reached_and_no_less-40",
+)
 @pytest.mark.parametrize("count", [40, pytest.param(2000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("law", LAWS)
 def test_two_definitions_of_one_question_agree(law, count):
@@ -394,6 +400,11 @@ MISTAKES = {
 """Where a mistake is planted, and the law that finds it."""
 
 
+@pytest.mark.long(
+    "vertices on the line of an edge ignored",
+    "no distance of contact is reached",
+    "a first root is lost",
+)
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_in_a_definition_is_found(mistake, monkeypatch):
     owner, name, wrong, law = MISTAKES[mistake]
