@@ -14,8 +14,8 @@ from typing import Final, NamedTuple, TypeAlias
 from exactpt import AlgebraicNumber, Body, Scene, Translation
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, power_of_two
+from exactpt.testing import reference
 from exactpt.testing.scenes.shapes import cells, convex_polygon
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["FAMILIES", "Planted", "PlantedFamily"]
 
@@ -159,7 +159,7 @@ def _planted(scene: Scene, gap: QQ, time: QQ) -> Planted:
 
 
 def _searched(scene: Scene) -> Planted:
-    contact = first_contact_allpairs(scene)
+    contact = reference.first_contact(scene)
     return Planted(scene, None if contact is None else contact.time)
 
 

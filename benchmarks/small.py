@@ -25,7 +25,8 @@ from exactpt.motion.motions import Pieces, Translation
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.planner import Planner
 from exactpt.scene.scene import Scene
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
+from exactpt.testing.reference import FirstContact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
@@ -108,13 +109,13 @@ def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
             for a, b, u, v in given
         ]
 
-    def answer(search: Callable[[Scene], Contact | None]) -> Times:
+    def answer(search: Callable[[Scene], Contact | FirstContact | None]) -> Times:
         return [time_of(search(scene)) for scene in build()]
 
     question, count = "two triangles", sizes.triangles
     searches = {m: partial(first_contact, method=m) for m in ("auto", "kinetic")}
     ways = {name: partial(partial, answer, search) for name, search in searches.items()}
-    ways["reference"] = partial(partial, answer, first_contact_allpairs)
+    ways["reference"] = partial(partial, answer, reference.first_contact)
     expected, least = beside(question, ways, sizes.runs)
     seconds = min(timed(build)[1] for _ in range(sizes.runs))
     rows = [_row(question, "exactpt, scene alone", seconds, count, [])]

@@ -11,6 +11,7 @@ from typing import TypeVar
 
 from exactpt import AlgebraicNumber, Approach, AuditError, Contact
 from exactpt.kernel.budget import resident_memory
+from exactpt.testing.reference import FirstContact
 
 __all__ = [
     "beside",
@@ -96,7 +97,7 @@ def beside(
     return answers[0], {name: seconds for name, (_, seconds) in found.items()}
 
 
-def time_of(contact: Contact | Approach | None) -> AlgebraicNumber | None:
+def time_of(contact: Contact | FirstContact | Approach | None) -> AlgebraicNumber | None:
     """Return the exact time of a result; None without one."""
     return None if contact is None else contact.time
 

@@ -13,11 +13,11 @@ from typing import Final
 
 from exactpt import Body, Contact, ExactPTError, Rigid, Scene, Simulation, Translation
 from exactpt.cgal import BodyShape, CgalCheck
-from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
 from exactpt.testing.scenes.degenerate import grids, rings
 from exactpt.testing.scenes.shapes import box, poly
-from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.witnesses import tilings_of
 
 __all__ = ["BATTERY", "Row", "Trial", "play", "table"]
@@ -169,7 +169,7 @@ def play(name: str, *, samples: int = 5, cgal: bool = True) -> Iterator[Row]:
     """Run a scene of the battery with every tiling that supports it."""
     trial = BATTERY[name]
     scene = trial.build()
-    expected = None if trial.large else first_contact_allpairs(scene)
+    expected = None if trial.large else reference.first_contact(scene)
     for tiling in tilings_of(scene):
         row = Row(name, tiling, len(scene.bodies))
         began = clock.perf_counter()
@@ -184,8 +184,8 @@ def play(name: str, *, samples: int = 5, cgal: bool = True) -> Iterator[Row]:
         row.contact = found if contact is None else f"{found} ({len(contact.pairs)} pairs)"
         if found != str(trial.contact):
             row.differences.append(f"contact {found}, by construction {trial.contact}")
-        if not trial.large and (kind := contrast(expected, contact)):
-            row.differences.append(f"contact: {kind} differs from the reference")
+        if not trial.large and (difference := disagreement(expected, contact)):
+            row.differences.append(f"contact: {difference.what} differs from the reference")
         if cgal:
             _look(scene, row, contact, samples)
         yield row

@@ -7,16 +7,17 @@ from typing import Final, TypeAlias
 
 from exactpt import Contact, Scene, Simulation, first_contact, proof_check, proof_scene, prove
 from exactpt.check import check_run
-from exactpt.collision.comparison import contrast, in_words
+from exactpt.collision.comparison import in_words
 from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.testing import reference as defined
+from exactpt.testing.agreement import disagreement
 from exactpt.testing.audits import run_and_audit
 from exactpt.tiling.start import tilings_for
 from fuzz.changes.variants import VARIANTS, difference
 from fuzz.old_engine.compare import compared
 from fuzz.old_engine.process import old_engine
 from fuzz.proofs.checking import checker
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = [
     "OLD",
@@ -59,14 +60,12 @@ class LeftOutError(Exception):
 
 
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
-    """The first contact is the same however it is asked for, and by the all-pairs reference."""
-    expected = first_contact_allpairs(scene)
+    """The first contact is the same however it is asked for, and by definition."""
+    expected = defined.first_contact(scene)
     others = tilings_of(scene) or ["exact"]
     for name in ("auto", "pairs", *others):
-        found = contact_by(scene, name)
-        if kind := contrast(expected, found):
-            said = f"{in_words(found)}, but the reference {in_words(expected)}"
-            raise Difference(f"{name}: {kind}", said)
+        if difference := disagreement(expected, contact_by(scene, name)):
+            raise Difference(f"{name}: {difference.what}", str(difference))
 
 
 def contact_by(scene: Scene, name: str) -> Contact | None:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import partial
-from typing import Final
+from typing import Final, TypeAlias
 
 from benchmarks.machine import is_compiled
 from benchmarks.methods.method import Answer, Method
 from exactpt import Contact, Scene, first_contact
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
+from exactpt.testing.reference import FirstContact
 
 __all__ = ["EXACT_SEARCH", "OWN", "fresh", "in_build"]
 
@@ -22,7 +23,11 @@ def fresh(scene: Scene) -> Scene:
     return loads(json.dumps(to_json(scene)))
 
 
-def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[], Answer]:
+Search: TypeAlias = "Callable[[Scene], Contact | FirstContact | None]"
+"""From a scene to its first contact."""
+
+
+def _prepare(ask: Search, scene: Scene) -> Callable[[], Answer]:
     given = fresh(scene)
 
     def time_of_contact() -> Answer:
@@ -43,5 +48,5 @@ OWN: Final = tuple(
 )
 """The methods that users call."""
 
-EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
+EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, reference.first_contact))
 """The exact reference search over all pairs."""

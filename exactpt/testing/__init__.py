@@ -5,9 +5,10 @@ questions (`FAMILIES`), and counts right, missed, invented, early, late and cras
 it finds is shrunken, and becomes a pytest file. `assert_same_contact` compares one answer;
 `shrink` makes a scene smaller as long as something fails. `audit` compares the state of a run with
 the tiling built from nothing; `ending_at` ends a limit of time at a chosen look at the clock.
-`exactpt.testing.strategies` has what Hypothesis draws scenes from (pip install
-'exactpt[testing]'), and `exactpt.testing.scenes` the families of scenes of ``exactpt generate``.
-docs/testing.md is the tutorial.
+`exactpt.testing.reference` answers from definitions, and `exactpt.testing.agreement` compares
+answers of exactpt with these. `exactpt.testing.strategies` has what Hypothesis draws scenes from
+(pip install 'exactpt[testing]'), and `exactpt.testing.scenes` the families of scenes of
+``exactpt generate``. docs/testing.md is the tutorial.
 """
 
 from importlib import import_module
@@ -61,7 +62,7 @@ _MODULE_OF: Final = {
 }
 """Names are imported on first use: whoever generates a scene needs none of them."""
 
-_PARTS: Final = ("scenes", "space", "strategies")
+_PARTS: Final = ("agreement", "reference", "scenes", "space", "strategies")
 """Subpackages and modules that are public by themselves."""
 
 

@@ -11,8 +11,8 @@ from typing import Any, Final, NamedTuple, TypeAlias
 from exactpt import AlgebraicNumber, Body, FreeSpace, InputError, Polynomial, Scene
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import Position
+from exactpt.testing import reference
 from fuzz.changes.variants import Variant, expected_time
-from fuzz.questions.reference import nearest
 
 __all__ = [
     "TRANSFORMATIONS",
@@ -291,7 +291,7 @@ def move_alike(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two rigid bodies with an interior have one motion and lie apart."""
     if a.motion != b.motion or a.radius != b.radius or not (_is_solid(a) and _is_solid(b)):
         return False
-    return nearest(a, b, t)[0] > (a.exact_radius + b.exact_radius) ** 2
+    return reference.nearest(a, b, t).core_squared > (a.exact_radius + b.exact_radius) ** 2
 
 
 def _is_solid(body: Body) -> bool:

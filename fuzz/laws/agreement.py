@@ -26,6 +26,7 @@ def as_defined(question: str, *, several: int | None = None) -> Check:
                 found = asked.ways[name](scene, about)
             except LeftOutError:
                 continue
+            found = asked.comparable(found)
             if found != expected:
                 raise Difference(name, f"{found!r}, by definition {expected!r}")
         return asked.kind(expected)

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import exactpt
 from exactpt import AlgebraicNumber, Contact, Scene
 from exactpt.kernel.numbers import QQ, fraction
-from fuzz.laws import definitions
+from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time
 
@@ -67,9 +67,10 @@ def _first_of(scene: Scene, chosen: Collection[Pair], start: QQ) -> Found:
         if frozenset(body.name for body in two) not in chosen:
             continue
         alone = Scene(two, (fraction(start), scene.end))
-        found = _value(definitions.first_contact(alone))
-        if found is None:
+        defined = reference.first_contact(alone)
+        if defined is None:
             continue
+        found = defined.time, defined.names
         refuse_unless(all(len(pair) == 2 for pair in found[1]))  # a body that touches itself
         if best is None or found[0] < best[0]:
             best = found

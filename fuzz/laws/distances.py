@@ -8,7 +8,7 @@ from typing import Final
 import exactpt
 from exactpt import Scene
 from exactpt.kernel.numbers import fraction
-from fuzz.laws.definitions import nearest
+from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time, two_names
 from fuzz.witnesses import Difference
@@ -31,8 +31,8 @@ def clearance_is_the_distance(scene: Scene, random: Random) -> str:
     least = gap.minimum.squared
     for _ in range(TIMES):
         time = a_time(scene, random, STEPS)
-        expected, _features = nearest(a, b, time)
-        check_equal("clearance", gap.squared(fraction(time)), fraction(expected))
-        if least.compare_rational(expected) > 0:
+        expected = reference.nearest(a, b, fraction(time)).core_squared
+        check_equal("clearance", gap.squared(fraction(time)), expected)
+        if least > expected:
             raise Difference("minimum", f"{least}, more than {expected} at {time}")
     return "they touch" if least == 0 else "they stay apart"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import pickle
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -27,7 +27,8 @@ from exactpt import (
     Simulation,
 )
 from exactpt.kernel.numbers import QQ, fraction
-from fuzz.laws import definitions
+from exactpt.testing import reference
+from exactpt.testing.agreement import plain, plain_contact
 from fuzz.laws.law import refuse_unless
 from fuzz.witnesses import LeftOutError, tilings_of
 
@@ -58,6 +59,7 @@ class Question:
     Attributes:
         ways: the public ways to ask it; their answers are equal.
         define: its definition, for small scenes.
+        comparable: the part of an answer that the definition has; by default all of it.
         kind: the outcome in a few words, of an answer.
         draw: draws what is asked about besides the scene.
     """
@@ -66,6 +68,7 @@ class Question:
     define: Way
     kind: Callable[[Answer], str]
     draw: Callable[[Scene, Random], Asked] = _nothing
+    comparable: Callable[[Answer], Answer] = lambda answer: answer
 
 
 # What is asked about
@@ -102,6 +105,23 @@ def contact_value(contact: Contact | None) -> Answer:
         return None
     initial_pairs = frozenset(map(frozenset, contact.initial_pairs))
     return contact.time, contact.kind, initial_pairs, contact.pairs
+
+
+def _without_points(value: Answer) -> Answer:
+    """Return a contact without its points and normals, which no definition has."""
+    if value is None:
+        return None
+    time, kind, initial_pairs, pairs = value
+    incidences = plain_contact(Contact(time, kind, pairs)).incidences  # type: ignore[union-attr]
+    return time, kind, initial_pairs, incidences
+
+
+def _defined_contact(scene: Scene, _: Asked) -> Answer:
+    contact = reference.first_contact(scene)
+    if contact is None:
+        return None
+    initial_pairs = frozenset(map(frozenset, contact.initial_pairs))
+    return contact.time, contact.kind, initial_pairs, contact.incidences
 
 
 def contact_kind(value: Answer) -> str:
@@ -172,8 +192,9 @@ FIRST_CONTACT: Final = Question(
         "certificate": _by_certificate,
         "proof": _by_proof,
     },
-    define=lambda scene, _: contact_value(definitions.first_contact(scene)),
+    define=_defined_contact,
     kind=contact_kind,
+    comparable=_without_points,
 )
 
 
@@ -197,13 +218,12 @@ def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
 
 def _defined_intervals(scene: Scene, _: Asked) -> Answer:
     found = {}
-    start, end = scene.exact_start, scene.exact_end
     for a, b in combinations(scene.bodies, 2):
         reach = a.exact_radius + b.exact_radius
         if reach:
-            intervals = definitions.intervals_within(a, b, start, end, reach**2)
+            intervals = reference.intervals_within(a, b, scene.time, reach**2)
         else:
-            intervals = definitions.contact_intervals(a, b, start, end)
+            intervals = reference.contact_intervals(a, b, scene.time)
         if intervals:
             found[a.name, b.name] = intervals
     return found
@@ -256,7 +276,7 @@ def _defined_within(scene: Scene, distance: QQ) -> Answer:
     times = []
     for a, b in combinations(scene.bodies, 2):
         reach = distance + a.exact_radius + b.exact_radius
-        time = definitions.first_within(a, b, scene.exact_start, scene.exact_end, reach**2)
+        time = reference.first_within(a, b, scene.time, reach**2)
         times.append((time, (a.name, b.name)))
     return _least(times)
 
@@ -276,19 +296,14 @@ def _time_and_names(scene: Scene, random: Random) -> Asked:
     return a_time(scene, random), two_names(scene, random)
 
 
-def _place(feature: Any) -> tuple[str, int]:  # noqa: ANN401 - not a public type
-    return ("v", feature.vertex) if feature.vertex is not None else ("e", feature.edge)
-
-
 def _distance(scene: Scene, asked: Asked) -> Answer:
     time, (first, second) = asked
-    found = exactpt.distance(scene, first, second, at=fraction(time))
-    return found.core_squared, {(_place(f), _place(g)) for f, g in found.features}
+    return plain(exactpt.distance(scene, first, second, at=fraction(time)))
 
 
 def _defined_distance(scene: Scene, asked: Asked) -> Answer:
     time, (first, second) = asked
-    return definitions.nearest(scene.body(first), scene.body(second), time)
+    return reference.nearest(scene.body(first), scene.body(second), fraction(time))
 
 
 DISTANCE: Final = Question(
@@ -302,20 +317,14 @@ DISTANCE: Final = Question(
 # The first new contact
 
 
-def _numbered(scene: Scene, pairs: Collection[exactpt.ContactPoint]) -> set[tuple[int, int]]:
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
-    ends = ((number[pair.body], number[pair.other]) for pair in pairs)
-    return {(min(i, j), max(i, j)) for i, j in ends}
-
-
 def _after_start(scene: Scene, _: Asked) -> Answer:
-    contact = exactpt.first_contact(scene, after_start=True)
-    return None if contact is None else (contact.time, _numbered(scene, contact.pairs))
+    contact = plain_contact(exactpt.first_contact(scene, after_start=True))
+    return None if contact is None else (contact.time, contact.names)
 
 
 def _defined_new(scene: Scene, _: Asked) -> Answer:
     refuse_unless(not scene.has_radius)
-    return definitions.first_new_contact(scene)
+    return reference.first_new_contact(scene)
 
 
 NEW_CONTACT: Final = Question(
@@ -360,7 +369,7 @@ def _defined_below(scene: Scene, asked: Asked) -> Answer:
     first, second, distance = asked
     a, b = scene.body(first), scene.body(second)
     reach = distance + a.exact_radius + b.exact_radius
-    return definitions.intervals_within(a, b, scene.exact_start, scene.exact_end, reach**2)
+    return reference.intervals_within(a, b, scene.time, reach**2)
 
 
 BELOW: Final = Question(

@@ -12,10 +12,10 @@ from typing import Final
 import exactpt
 from exactpt import Body, Contact, InputError, Scene, Simulation
 from exactpt.kernel.numbers import fraction
-from exactpt.testing import audit
-from fuzz.laws import definitions
+from exactpt.testing import audit, reference
+from exactpt.testing.agreement import plain_contact
 from fuzz.laws.law import check_equal, refuse_unless
-from fuzz.laws.questions import a_time, contact_value
+from fuzz.laws.questions import a_time
 from fuzz.laws.tilings import a_tiling
 from fuzz.soak import Soak
 from fuzz.witnesses import Difference, LeftOutError
@@ -85,8 +85,8 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     def respond(simulation: Simulation, contact: Contact) -> None:
         nonlocal planned, contacts
         contacts += 1
-        expected = definitions.first_contact(planned)
-        check_equal("contact", contact_value(contact), contact_value(expected))
+        expected = reference.first_contact(planned)
+        check_equal("contact", plain_contact(contact), expected)
         bounce(simulation, contact)
         planned = _from_now_on(simulation)
 
@@ -130,7 +130,7 @@ def population_is_a_new_scene(scene: Scene, random: Random) -> str:
         later = Scene([*others, last], (time, scene.end))
     except InputError:
         raise LeftOutError from None  # it has touched itself before, and is no body any more
-    expected = definitions.first_contact(later)
+    expected = reference.first_contact(later)
     if expected is not None and expected.kind == "initial":
         return f"{tiling}, {_refused_to_come(run, last)}"
     run.add(last)
@@ -139,7 +139,7 @@ def population_is_a_new_scene(scene: Scene, random: Random) -> str:
     if len(others) > 1 and random.random() < 0.5:
         run.remove(random.choice(others).name)
         audit(run)
-        expected = definitions.first_contact(_from_now_on(run))
+        expected = reference.first_contact(_from_now_on(run))
         outcome = "came and went"
     contact = run.run_to_contact()
     check_equal("time of the contact", contact and contact.time, expected and expected.time)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from itertools import pairwise
 from random import Random
-from typing import Any, Final
+from typing import Final
 
 import exactpt
 from exactpt import FreeSpace, Scene, Simulation, UnreachableError
 from exactpt.kernel.numbers import QQ, fraction
-from fuzz.laws.definitions import VisibilityGraph, brute, length_of
+from exactpt.testing.reference import space as definition
+from exactpt.testing.reference.paths import Length, length_of, shortest_length
+from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.tilings import a_tiling
-from fuzz.questions.brute import Places, Point
 from fuzz.questions.free_space import some_point
 from fuzz.witnesses import Difference
 
@@ -23,9 +24,6 @@ POINTS: Final = 6
 
 PATHS: Final = 2
 """Number of paths in a case about paths."""
-
-PRECISION: Final = 2**480
-"""Lengths are compared up to this part of them."""
 
 
 def a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
@@ -39,7 +37,7 @@ def a_space(scene: Scene, random: Random) -> tuple[FreeSpace, Places]:
     refuse_unless(contact is None or contact.time.compare_rational(time) > 0)
     for _ in simulation.run(until=fraction(time)):
         pass
-    return simulation.space(at=fraction(time)), brute.points_of(scene, fraction(time))
+    return simulation.space(at=fraction(time)), definition.points_of(scene, fraction(time))
 
 
 def places_are_as_defined(scene: Scene, random: Random) -> str:
@@ -47,13 +45,13 @@ def places_are_as_defined(scene: Scene, random: Random) -> str:
     space, bodies = a_space(scene, random)
     points = [some_point(random, bodies) for _ in range(POINTS)]
     for p, q in pairwise(points):
-        place, owner = space.locate(p), brute.owner(p, bodies)
+        place, owner = space.locate(p), definition.owner(p, bodies)
         found = place.body, place.vertex, place.edge
         check_equal(f"the place of {p}", found, owner or (None, None, None))
         if p != q:
             _check_ray(space, bodies, p, q)
     hull = [bodies[body][vertex] for body, vertex in space.hull()]
-    corners = brute.convex_hull([p for points in bodies.values() for p in points])
+    corners = definition.convex_hull([p for points in bodies.values() for p in points])
     if not set(corners) <= set(hull):
         raise Difference("hull", f"{hull}, without {set(corners) - set(hull)}")
     return "at the start" if space.at == scene.start else "later"
@@ -61,7 +59,7 @@ def places_are_as_defined(scene: Scene, random: Random) -> str:
 
 def _check_ray(space: FreeSpace, bodies: Places, p: Point, q: Point) -> None:
     direction = q[0] - p[0], q[1] - p[1]
-    hit, expected = space.ray_cast(p, direction), brute.first_hit(p, direction, bodies)
+    hit, expected = space.ray_cast(p, direction), definition.first_hit(p, direction, bodies)
     found = None if hit is None else (hit.at, hit.body, hit.vertex, hit.edge)
     if found != expected:
         raise Difference("ray", f"from {p} to {q}: {found}, not {expected}")
@@ -78,18 +76,19 @@ def paths_are_shortest(scene: Scene, random: Random) -> str:
         p, q = some_point(random, bodies), some_point(random, bodies)
         if _is_inside(p, bodies) or _is_inside(q, bodies):
             continue
-        expected = VisibilityGraph(bodies, p, q).shortest(p, q)
+        expected = shortest_length(bodies, p, q)
         for start, goal in ((p, q), (q, p)):
             found = _length(space, start, goal)
-            if (found is None) != (expected is None) or (
-                expected is not None and abs(found - expected) > expected / PRECISION
-            ):
+            is_right = found is None and expected is None
+            if found is not None and expected is not None:
+                is_right = found.may_be(expected)
+            if not is_right:
                 raise Difference("path", f"from {start} to {goal}: {found}, not {expected}")
         outcome = "unreachable" if expected is None else "a path"
     return outcome
 
 
-def _length(space: FreeSpace, start: Point, goal: Point) -> Any:  # noqa: ANN401 - of mpmath
+def _length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
     try:
         return length_of(space.shortest_path(start, goal).points)
     except UnreachableError:
@@ -98,5 +97,5 @@ def _length(space: FreeSpace, start: Point, goal: Point) -> Any:  # noqa: ANN401
 
 def _is_inside(point: Point, bodies: Places) -> bool:
     """Return True if a point is in the interior of a body."""
-    owner = brute.owner(point, bodies)
+    owner = definition.owner(point, bodies)
     return owner is not None and owner[1:] == (None, None)

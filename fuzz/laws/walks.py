@@ -7,10 +7,13 @@ from random import Random
 from typing import Final
 
 from exactpt import FreeSpace, InputError, Scene, ShortestPath
-from fuzz.laws.definitions import brute
+from exactpt.geometry.predicates import orient2d
+from exactpt.testing.reference import homotopy
+from exactpt.testing.reference import space as definition
+from exactpt.testing.reference.shapes import is_on_segment
+from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal
 from fuzz.laws.space import a_space
-from fuzz.questions.brute import Places, Point
 from fuzz.questions.free_space import some_point
 from fuzz.witnesses import Difference
 
@@ -29,8 +32,8 @@ def shortened_walks_are_taut(scene: Scene, random: Random) -> str:
     So it is the shortest path of its class.
     """
     space, bodies = a_space(scene, random)
-    obstacles = brute.split_into_parts(bodies)
-    inner = {name: brute.inner_point(points, random) for name, points in obstacles.items()}
+    obstacles = homotopy.split_into_parts(bodies)
+    inner = {name: homotopy.inner_point(points, random) for name, points in obstacles.items()}
     bends = 0
     for _ in range(WALKS):
         walk = _a_walk(space, bodies, random)
@@ -41,8 +44,10 @@ def shortened_walks_are_taut(scene: Scene, random: Random) -> str:
         check_equal("ends of a walk", (path.points[0], path.points[-1]), (walk[0], walk[-1]))
         _check_taut(path, bodies)
         _check_taut(direct, bodies)
-        anchors = brute.anchors_beside(path.points, obstacles, inner)
-        found, expected = (brute.crossing_word(points, anchors) for points in (path.points, walk))
+        anchors = homotopy.anchors_beside(path.points, obstacles, inner)
+        found, expected = (
+            homotopy.crossing_word(points, anchors) for points in (path.points, walk)
+        )
         check_equal("class of a walk", found, expected)
         bends += len(path.bends)
     return "no bends" if bends == 0 else "some bends"
@@ -62,19 +67,19 @@ def _a_walk(space: FreeSpace, bodies: Places, random: Random) -> list[Point]:
 
 def _check_taut(path: ShortestPath, bodies: Places) -> None:
     points = path.points
-    if any(brute.crosses(p, q, bodies) for p, q in pairwise(points)):
+    if any(definition.crosses(p, q, bodies) for p, q in pairwise(points)):
         raise Difference("a body in the way", f"{points}")
     for i, (name, vertex) in enumerate(path.bends):
         check_equal("place of a bend", bodies[name][vertex], points[i + 1])
         before, here, after = points[i : i + 3]
-        if not brute.bends_around(before, here, after, bodies[name], vertex):
+        if not definition.bends_around(before, here, after, bodies[name], vertex):
             raise Difference("not taut", f"{points} at vertex {vertex} of {name!r}")
 
 
 def relative_hulls_are_taut(scene: Scene, random: Random) -> str:
     """A relative hull goes around one body and no other, has none in the way, and is taut."""
     space, bodies = a_space(scene, random)
-    inner = {name: brute.inner_point(points, random) for name, points in bodies.items()}
+    inner = {name: homotopy.inner_point(points, random) for name, points in bodies.items()}
     outcomes = set()
     for body, own in bodies.items():
         try:
@@ -100,12 +105,12 @@ def _check_loop(
 ) -> None:
     for i, (name, vertex) in enumerate(hull):
         before, here, after = points[i - 1], points[i], points[(i + 1) % len(points)]
-        if brute.crosses(here, after, bodies):
+        if definition.crosses(here, after, bodies):
             raise Difference("a body in the hull", f"of {body!r}: {here} to {after}")
-        turn = brute.cross(before, here, after)
+        turn = orient2d(before, here, after)
         if turn and not (
             (turn < 0 or name == body)
-            and brute.bends_around(before, here, after, bodies[name], vertex)
+            and definition.bends_around(before, here, after, bodies[name], vertex)
         ):
             raise Difference("hull not taut", f"of {body!r} at vertex {vertex} of {name!r}")
 
@@ -113,10 +118,10 @@ def _check_loop(
 def _check_inside(body: str, points: list[Point], bodies: Places, inner: dict[str, Point]) -> None:
     """Check that a loop winds around its body and those in its holes, and around no other."""
     for name, p in inner.items():
-        if any(brute.on_segment(p, points[i - 1], points[i]) for i in range(len(points))):
-            is_thin = len(bodies[name]) < 3 or isinstance(bodies[name], brute.OpenChain)
+        if any(is_on_segment(p, points[i - 1], points[i]) for i in range(len(points))):
+            is_thin = len(bodies[name]) < 3 or isinstance(bodies[name], definition.OpenChain)
             if not is_thin:
                 raise Difference("hull", f"of {body!r} runs through {name!r}")
             continue
-        is_around = name == body or brute.is_in_hole(p, bodies[body])
-        check_equal("winding of a hull", brute.winding(p, points), int(is_around))
+        is_around = name == body or definition.is_in_hole(p, bodies[body])
+        check_equal("winding of a hull", definition.winding(p, points), int(is_around))

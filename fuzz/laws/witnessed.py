@@ -7,7 +7,7 @@ from random import Random
 
 from exactpt import Scene
 from exactpt.check import check_run
-from fuzz.laws import definitions
+from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.tilings import a_tiling
 from fuzz.old_engine.compare import compared
@@ -20,16 +20,15 @@ __all__ = ["cgal_accepts_runs", "definitions_agree", "old_engine_agrees"]
 def definitions_agree(scene: Scene, random: Random) -> str:  # noqa: ARG001
     """The first contact by all pairs is the start of the first interval by critical times."""
     refuse_unless(not any(body.has_rings or body.keyframes for body in scene.bodies))
-    contact = definitions.first_contact(scene)
+    contact = reference.first_contact(scene)
     refuse_unless(contact is None or contact.kind != "self")
-    start, end = scene.exact_start, scene.exact_end
     starts = []
     for a, b in combinations(scene.bodies, 2):
         reach = a.exact_radius + b.exact_radius
         if reach:
-            intervals = definitions.intervals_within(a, b, start, end, reach**2)
+            intervals = reference.intervals_within(a, b, scene.time, reach**2)
         else:
-            intervals = definitions.contact_intervals(a, b, start, end)
+            intervals = reference.contact_intervals(a, b, scene.time)
         starts += [interval[0] for interval in intervals[:1]]
     check_equal("time of the first contact", contact and contact.time, min(starts, default=None))
     return "no contact" if contact is None else contact.kind

@@ -19,11 +19,11 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import rational
 from exactpt.proof import Proof, certificate_of, certify
 from exactpt.scene.scene import Scene, scene_of
+from exactpt.testing import reference
 from exactpt.testing.scenes import EVERY, generate
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import TooSlow, limit
 from fuzz.proofs.checking import checker
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["KINDS", "Apart", "is_true", "tampered", "verdict"]
 
@@ -65,9 +65,7 @@ def is_true(scene: Scene, lines: Lines) -> bool:
         if any({i, j} <= group for group in groups) or (named and {i, j} not in named):
             continue
         two = scene_of((bodies[i], bodies[j]), start, end)
-        found = first_contact_allpairs(two)
-        if found is not None and found.kind == "self":
-            found = first_contact(two, between=[(bodies[i].name, bodies[j].name)])
+        found = reference.first_contact(two, between=[(bodies[i].name, bodies[j].name)])
         if found is not None and (first is None or found.time < first):
             first = found.time
     if high is None:

@@ -16,6 +16,7 @@ from typing import Final, NamedTuple
 from exactpt import InputError, Scene, prove
 from exactpt.scene.format import loads
 from exactpt.scene.written import scene_bytes
+from exactpt.testing import reference
 from exactpt.testing.scenes import families, generate
 from exactpt.tiling.start import tilings_for
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
@@ -23,7 +24,6 @@ from fuzz.limits import limit
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.texts import TEXTS
 from fuzz.proofs.wrong import wheel, wrong_splice
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["KINDS", "Mutant", "Mutants", "is_true", "mutants"]
 
@@ -171,7 +171,7 @@ def is_true(mutant: Mutant, answer: str) -> bool:
     except InputError:
         return False  # what is no scene has to be refused
     last = mutant.proof.decode().splitlines()[2].split()[2]
-    contact = first_contact_allpairs(scene.until(last))
+    contact = reference.first_contact(scene.until(last))
     if " no contact in [" in answer:
         return contact is None
     time = TIME.search(answer)
@@ -183,10 +183,8 @@ def is_true(mutant: Mutant, answer: str) -> bool:
     pairs = sorted(
         f"b{at[p.body]}.{p.vertex} on edge b{at[p.other]}.{p.edge}"
         if p.edge is not None
-        else " at ".join(
-            f"b{i}.{v}" for i, v in sorted([(at[p.body], p.vertex), (at[p.other], p.other_vertex)])
-        )
-        for p in contact.pairs
+        else f"b{at[p.body]}.{p.vertex} at b{at[p.other]}.{p.other_vertex}"
+        for p in contact.incidences
     )
     if time["start"] is not None:
         return is_then and contact.kind == "initial"

@@ -13,7 +13,7 @@ from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import ProofRun
 from exactpt.proof.lines import header
 from exactpt.scene.written import scene_bytes
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
 
 __all__ = ["spliced", "touching_and_going", "wheel", "wrong_splice"]
 
@@ -84,11 +84,11 @@ def spliced(scene: Scene, time: QQ, later: QQ, tiling: str) -> list[str]:
 def wrong_splice(random: Random, *, with_event: bool) -> tuple[Scene, list[str]] | None:
     """A scene with a contact at t = 1, and a proof that there is none."""
     scene, tiling = touching_and_going(random, with_event=with_event), random.choice(TILINGS)
-    contact = first_contact_allpairs(scene)
+    contact = reference.first_contact(scene)
     if contact is None or contact.time != 1:
         return None
     later = QQ(1) + power_of_two(-20)
-    if first_contact_allpairs(scene.going_on(scene.bodies, later)) is not None:
+    if reference.first_contact(scene.going_on(scene.bodies, later)) is not None:
         return None
     try:
         return scene, spliced(scene, QQ(1), later, tiling)

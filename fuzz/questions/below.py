@@ -12,7 +12,8 @@ from exactpt import Scene, clearance
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.square_root import exact_square_root
 from exactpt.pairs.clearance import Clearance
-from fuzz.questions import reference
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import distant_scene
 
@@ -27,12 +28,12 @@ def wrong_intervals(random: Random) -> tuple[Scene, str, str | None]:
     a, b = scene.bodies
     gap = clearance(scene, a.name, b.name)
     d = _asked(random, gap)
-    found = [(i.start, i.end) for i in gap.below(fraction(d))]
     squared = (d + a.exact_radius + b.exact_radius) ** 2
-    expected = reference.intervals_within(a, b, scene.exact_start, scene.exact_end, squared)
+    expected = reference.intervals_within(a, b, scene.time, squared)
     moments = sum(start == end for start, end in expected)
     kind = f"{len(expected)} intervals, {moments} of them a single time"
-    return scene, kind, None if found == expected else f"below {d}: {found}, not {expected}"
+    difference = disagreement(expected, gap.below(fraction(d)))
+    return scene, kind, None if difference is None else f"below {d}: {difference}"
 
 
 def _asked(random: Random, gap: Clearance) -> QQ:

@@ -13,7 +13,8 @@ from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, sub
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.pairs.clearance import ClearancePiece
-from fuzz.questions import reference
+from exactpt.testing.reference.times import tracks_after
+from exactpt.testing.reference.within import is_within
 
 __all__ = ["compare"]
 
@@ -90,8 +91,8 @@ class _Judge:
             [t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if t < at],
             default=scene.exact_start,
         )
-        p, q = reference.tracks(a, b, max(since, scene.exact_start))
-        if reference.is_within(_Instant(self, at), a, b, p, q, squared) != (time is not None):
+        p, q = tracks_after(a, b, max(since, scene.exact_start))
+        if is_within(_Instant(self, at), a, b, p, q, squared) != (time is not None):
             raise _DifferError(f"within {squared} at {at!r}: not so by CGAL")
 
     def minimum(self, gap: Clearance) -> None:

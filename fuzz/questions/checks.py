@@ -14,12 +14,9 @@ from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
-from exactpt.motion.track import Incidence
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.clearance import Clearance, ClearancePiece
 from exactpt.pairs.distance import distance
-from exactpt.pairs.features import Feature
-from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.surroundings import clearance
@@ -28,14 +25,16 @@ from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.simulation.simulation import Simulation
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import audit_certificates
+from exactpt.testing.reference.shapes import bodies_meet
 from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks, overlays
-from fuzz.questions import by_cgal, reference
-from fuzz.questions.all_pairs import touches_at
+from fuzz.questions import by_cgal
 from fuzz.questions.batched import wrong_in_batch
 from fuzz.questions.below import wrong_intervals
 from fuzz.questions.budgets import wrong_at_the_end
@@ -45,7 +44,6 @@ from fuzz.questions.curves import wrong_along
 from fuzz.questions.free_space import wrong_path, wrong_place
 from fuzz.questions.in_arrays import wrong_in_arrays
 from fuzz.questions.moving import wrong_clearance
-from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
@@ -100,7 +98,7 @@ def _distance(random: Random) -> Checked:
     squared = _asked(random, scene, gap)
     time = first_within(scene, "a", "b", distance_squared=squared)
     a, b = scene.bodies
-    expected = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
+    expected = reference.first_within(a, b, scene.time, squared)
     fault = None
     if time != expected:
         fault = f"first_within {squared}: {time}, not {expected}"
@@ -133,12 +131,13 @@ def _wrong_distance(random: Random, scene: Scene, gap: Clearance) -> str | None:
     samples.add(scene.exact_start + span * random.randint(0, 997) / 997)
     least = gap.minimum.squared
     for t in sorted(samples):
-        expected, features = reference.nearest(scene.bodies[0], scene.bodies[1], t)
-        there = distance(scene, "a", "b", at=t)
-        found = {(_place(f), _place(g)) for f, g in there.features}
-        if (there.squared, found) != (expected, features) or gap.squared(t) != expected:
-            return f"distance at {t}: {there}, {gap.squared(t)}, not {expected}, {features}"
-        if least.compare_rational(expected) > 0:
+        nearest = reference.nearest(scene.bodies[0], scene.bodies[1], t)
+        if difference := disagreement(nearest, distance(scene, "a", "b", at=t)):
+            return f"distance at {t}: {difference}"
+        expected = nearest.core_squared
+        if gap.squared(t) != expected:
+            return f"clearance at {t}: {gap.squared(t)}, not {expected}"
+        if least.compare_rational(rational(expected)) > 0:
             return f"the minimum {least} is more than {expected} at {t}"
     return _wrong_minimum(scene, gap)
 
@@ -149,29 +148,19 @@ def _wrong_minimum(scene: Scene, gap: Clearance) -> str | None:
     a, b = scene.bodies
     squared = squared.simplified()
     if squared.is_rational:
-        first = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared.exact_low)
+        first = reference.first_within(a, b, scene.time, squared.exact_low)
         if first != time:
             return f"the minimum is first at {first}, not at {time}"
         below = squared.exact_low - QQ(1, 10**30)
     else:
         while squared.exact_low <= 0 or squared.exact_high - squared.exact_low > QQ(1, 10**30):
             squared.refine()
-        if (
-            reference.first_within(a, b, scene.exact_start, scene.exact_end, squared.exact_high)
-            is None
-        ):
+        if reference.first_within(a, b, scene.time, squared.exact_high) is None:
             return f"the minimum {squared} is never reached"
         below = squared.exact_low
-    if (
-        below >= 0
-        and reference.first_within(a, b, scene.exact_start, scene.exact_end, below) is not None
-    ):
+    if below >= 0 and reference.first_within(a, b, scene.time, below) is not None:
         return f"less than the minimum {squared} is reached"
     return None
-
-
-def _place(feature: Feature) -> reference.Place:
-    return ("v", feature.vertex) if feature.vertex is not None else ("e", feature.edge or 0)
 
 
 def _value(piece: ClearancePiece, t: AlgebraicNumber) -> AlgebraicNumber:
@@ -186,7 +175,7 @@ def _approach(random: Random) -> Checked:
     found = first_within(scene, distance_squared=squared)
     times = []
     for a, b in combinations(scene.bodies, 2):
-        time = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
+        time = reference.first_within(a, b, scene.time, squared)
         if time is not None:
             times.append((time, (a.name, b.name)))
     least = min((time for time, _ in times), default=None)
@@ -203,43 +192,36 @@ def _intervals(random: Random) -> Checked:
     """contact_intervals of two bodies."""
     scene = meeting_scene(random)
     a, b = scene.bodies
-    found = [(i.start, i.end) for i in contact_intervals(scene, a.name, b.name)]
-    expected = reference.contact_intervals(a, b, scene.exact_start, scene.exact_end)
-    touches = sum(start == end for start, end in found)
+    found = contact_intervals(scene, a.name, b.name)
+    touches = sum(i.start == i.end for i in found)
     kind = f"{len(found)} intervals, {touches} of them touches"
-    return Checked(scene, kind, None if found == expected else f"{found}, not {expected}")
+    difference = disagreement(reference.contact_intervals(a, b, scene.time), found)
+    return Checked(scene, kind, None if difference is None else str(difference))
 
 
 def _after_start(random: Random) -> Checked:
     """The first new contact."""
     scene = touching_scene(random)
-    contact = first_contact(scene, after_start=True)
-    expected = first_new_contact(scene)
-    touching = not set(_touching(scene)).isdisjoint(expected[1] if expected else set())
+    contact = plain_contact(first_contact(scene, after_start=True))
+    expected = reference.first_new_contact(scene)
     if contact is None:
         fault = None if expected is None else f"no new contact, not {expected}"
         return Checked(scene, "none", fault)
-    found = contact.exact_incidences({body.name: i for i, body in enumerate(scene.bodies)})
-    pairs = {_ordered(touch) for touch in found}
-    kind = f"{contact.kind}, {'again' if touching else 'first'}"
+    is_again = expected is not None and not expected[1].isdisjoint(_touching(scene))
+    kind = f"{contact.kind}, {'again' if is_again else 'first'}"
     fault = None
-    if (contact.time, pairs) != expected:
-        fault = f"{contact.time}, {pairs}, not {expected}"
-    elif found != (touches := _touches(scene, contact.time, pairs)):
-        fault = f"{found}, not {touches}"
+    if expected is None or (contact.time, contact.names) != expected:
+        fault = f"{contact}, not {expected}"
+    elif contact.incidences != (defined := _incidences(scene, *expected)):
+        fault = f"{contact}, not {defined}"
     return Checked(scene, kind, fault)
 
 
-def _ordered(touch: Incidence) -> tuple[int, int]:
-    return min(touch.body, touch.other), max(touch.body, touch.other)
-
-
-def _touches(
-    scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]]
-) -> list[Incidence]:
-    """Return the incidences at a time of the pairs of bodies, from the definition."""
-    tracks = [tracks_just_before(body, t, scene.exact_start) for body in scene.bodies]
-    return sorted(touch for touch in touches_at(scene, tracks, t) if _ordered(touch) in pairs)
+def _incidences(
+    scene: Scene, time: AlgebraicNumber, pairs: Collection[frozenset[str]]
+) -> frozenset[reference.NamedIncidence]:
+    """Return the incidences at a time of these pairs of bodies, from the definition."""
+    return reference.incidences(scene, time, [(min(pair), max(pair)) for pair in pairs])
 
 
 def _chosen(random: Random) -> Checked:
@@ -247,15 +229,14 @@ def _chosen(random: Random) -> Checked:
     return Checked(*wrong_choice(random))
 
 
-def _touching(scene: Scene) -> list[tuple[int, int]]:
-    start = AlgebraicNumber(scene.exact_start)
-    pairs = combinations(range(len(scene.bodies)), 2)
-    return [
-        (i, j)
-        for i, j in pairs
-        for a, b in [(scene.bodies[i], scene.bodies[j])]
-        if reference.meet_at(start, a, b, *reference.tracks(a, b, scene.exact_start))
-    ]
+def _touching(scene: Scene) -> set[frozenset[str]]:
+    """Return the names of any two bodies that share a point at the start."""
+    points = {body.name: body.exact_at(scene.exact_start) for body in scene.bodies}
+    return {
+        frozenset({a.name, b.name})
+        for a, b in combinations(scene.bodies, 2)
+        if bodies_meet(a, points[a.name], b, points[b.name])
+    }
 
 
 def _cgal(random: Random) -> Checked:

@@ -1,19 +1,18 @@
-"""The first contact of some pairs from a time on: of each pair alone, by the reference search."""
+"""The first contact of some pairs from a time on: of each pair alone, by definition."""
 
 from __future__ import annotations
 
 from itertools import combinations
 from random import Random
 
-from exactpt import AlgebraicNumber, Contact, Planner, Scene, first_contact
+from exactpt import Body, Planner, Scene, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import scene_of
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
 from fuzz.questions.scenes import crowded_scene
 
 __all__ = ["wrong_choice"]
-
-Found = tuple[AlgebraicNumber, set[frozenset[str]]] | None
 
 
 def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
@@ -36,10 +35,9 @@ def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
         shape = bodies.pop(random.randrange(len(bodies)))
         groups = [[body.name for body in bodies]]
         contact = Planner(bodies, (scene.start, scene.end)).first_contact(shape, shape.motion)
-    ignored = {frozenset(two) for group in groups for two in combinations(group, 2)}
-    expected = _first_of_pairs(scene, ignored, start)
-    found = _answer(contact)
-    return scene, kind, None if found == expected else f"{kind}: {found}, not {expected}"
+        bodies.append(shape)
+    difference = disagreement(_expected(bodies, groups, start, scene.exact_end), contact)
+    return scene, kind, None if difference is None else f"{kind}: {difference}"
 
 
 def _groups(random: Random, names: list[str]) -> list[list[str]]:
@@ -49,24 +47,15 @@ def _groups(random: Random, names: list[str]) -> list[list[str]]:
     ]
 
 
-def _first_of_pairs(scene: Scene, ignored: set[frozenset[str]], start: QQ) -> Found:
-    """Return the first time at which a pair that is not ignored meets, and all pairs that do."""
-    best: Found = None
-    for two in combinations(scene.bodies, 2):
-        if frozenset(body.name for body in two) in ignored:
-            continue
-        found = _answer(first_contact_allpairs(scene_of(two, start, scene.exact_end)))
-        if found is None:
-            continue
-        if best is None or found[0] < best[0]:
-            best = found
-        elif found[0] == best[0]:
-            best = best[0], best[1] | found[1]
-    return best
-
-
-def _answer(contact: Contact | None) -> Found:
-    if contact is None:
-        return None
-    pairs = contact.initial_pairs or tuple((pair.body, pair.other) for pair in contact.pairs)
-    return contact.time, {frozenset(names) for names in pairs}
+def _expected(
+    bodies: list[Body], groups: list[list[str]], start: QQ, end: QQ
+) -> reference.FirstContact | None:
+    """Return the first contact, by definition, of the pairs that no group has both bodies of."""
+    names = [body.name for body in bodies]
+    counted = [
+        pair
+        for pair in combinations(names, 2)
+        if not any(set(pair) <= set(group) for group in groups)
+    ]
+    alone = [(name, name) for name in names]
+    return reference.first_contact(scene_of(bodies, start, end), [*counted, *alone])

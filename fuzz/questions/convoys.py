@@ -11,10 +11,10 @@ from random import Random
 from typing import Final
 
 from exactpt import Body, Scene, Translation, first_contact
-from exactpt.collision.comparison import contrast, in_words
 from exactpt.kernel.numbers import QQ
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
 from fuzz.changes.awkward import awkward_number
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 __all__ = ["convoy", "wrong_in_convoy"]
 
@@ -36,10 +36,9 @@ SHAPES: Final = (
 def wrong_in_convoy(random: Random) -> tuple[Scene, str, str | None]:
     """Return a crowd, what happens in it, and the difference from the definition."""
     scene = convoy(random)
-    expected, found = first_contact_allpairs(scene), first_contact(scene, method="pairs")
-    fault = contrast(expected, found)
-    if fault is not None:
-        fault = f"{fault}: {in_words(found)}, but the definition {in_words(expected)}"
+    expected, found = reference.first_contact(scene), first_contact(scene, method="pairs")
+    difference = disagreement(expected, found)
+    fault = None if difference is None else str(difference)
     when = "before 0" if scene.end <= 0 else "after 0" if scene.start >= 0 else "around 0"
     return scene, f"{when}, {'no contact' if expected is None else expected.kind}", fault
 

@@ -25,7 +25,7 @@ from exactpt.motion.motions import Rigid
 from exactpt.motion.pose_path import PosePath
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
-from fuzz.questions.true_turns import real
+from fuzz.references.true_turns import real
 
 __all__ = ["Curve", "random_curve", "wrong_along"]
 

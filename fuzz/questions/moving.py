@@ -6,11 +6,11 @@ from random import Random
 from typing import Final
 
 from exactpt import Scene, clearance, distance
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import QQ, fraction, rational
+from exactpt.testing import reference
 from exactpt.testing.scenes import generate
 from fuzz.changes.awkward import awkward
 from fuzz.changes.excerpts import subscene
-from fuzz.questions import reference
 
 __all__ = ["KINDS", "wrong_clearance"]
 
@@ -45,7 +45,7 @@ def wrong_clearance(random: Random) -> tuple[Scene, str, str | None]:
         t = scene.exact_start + (scene.exact_end - scene.exact_start) * QQ(
             random.randint(0, 60), 60
         )
-        expected, _ = reference.nearest(a, b, t)
+        expected = rational(reference.nearest(a, b, t).core_squared)
         found = QQ(gap.squared(fraction(t)))
         there = QQ(distance(scene, a.name, b.name, at=fraction(t)).core_squared)
         if not found == there == expected:

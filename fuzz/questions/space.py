@@ -7,7 +7,7 @@ from random import Random
 
 from exactpt.testing.space import SpaceContact, SpaceQuery, edge_edge, vertex_face
 from exactpt.testing.space.vectorized import edge_edge_array, vertex_face_array
-from fuzz.questions import space_reference as reference
+from fuzz.references import space as reference
 
 __all__ = ["small_query", "space_kind", "wrong_in_space"]
 

@@ -29,7 +29,7 @@ from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
 from exactpt.testing.scenes import SPINNING
-from fuzz.questions.true_turns import DIGITS, Approach, Real, Truth, UndecidedError, real
+from fuzz.references.true_turns import DIGITS, Approach, Real, Truth, UndecidedError, real
 
 __all__ = ["Case", "case_of", "path_scene", "spinning_scene"]
 

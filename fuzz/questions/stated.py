@@ -4,7 +4,7 @@
 stated errors. Let E be the sum of the errors of two bodies. Moves of both by at most their errors
 move one against the other by any vector of at most the length E, so only this one is moved here, by
 E in the direction of normals of edges and in directions all around. After each of these moves the
-bodies must touch, by the definition of `fuzz.questions.reference`.
+bodies must touch, by the definition of `exactpt.testing.reference`.
 
 For convex bodies at places with rational normals the law holds in the other direction, too. If the
 bodies overlap by E or more in the direction of every normal of an edge, they touch after all of
@@ -18,7 +18,7 @@ error may be at one body or at both. Bodies touch, overlap by less than E, by E 
 inside each other, or are a little apart.
 
 **Later**, if both bodies are moved by constant vectors of the lengths of their errors, their first
-contact is between the bounds. It is computed by `fuzz.questions.true_turns`.
+contact is between the bounds. It is computed by `fuzz.references.true_turns`.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from typing import Any, Final, NamedTuple
 import mpmath
 
 from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
-from exactpt.kernel.numbers import QQ, rational
+from exactpt.kernel.numbers import rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
-from fuzz.questions import reference
-from fuzz.questions.true_turns import DIGITS, Truth, UndecidedError, real
+from exactpt.testing import reference
+from fuzz.references.true_turns import DIGITS, Truth, UndecidedError, real
 
 __all__ = ["Stated", "Wrong", "stated_case", "wrong_after_moves", "wrong_at_the_start"]
 
@@ -282,7 +282,7 @@ def _rational_root(square: Fraction) -> Fraction | None:
 
 def _touch(a: Body, b: Body) -> bool:
     """Return True if two bodies at rest touch, by the definition."""
-    squared, _ = reference.nearest(a, b, QQ(0))
+    squared = reference.nearest(a, b, 0).core_squared
     reach = rational(a.radius + b.radius)
     return bool(squared <= reach * reach)
 

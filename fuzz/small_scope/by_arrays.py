@@ -10,10 +10,10 @@ from exactpt.arrays import KINDS, Contacts
 from exactpt.kernel.numbers import of_double
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.testing import truth
 from exactpt.testing.questions import Question
+from exactpt.testing.reference import FirstContact
 from fuzz.limits import TooSlow, limit
 
 __all__ = ["ARRAYS", "Verdict", "suits", "verdicts"]
@@ -49,7 +49,7 @@ def _translates(body: Body) -> bool:
     return rigid and isinstance(body.motion, Translation)
 
 
-def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> list[Verdict]:
+def verdicts(scenes: Sequence[Scene], expected: Sequence[FirstContact | None]) -> list[Verdict]:
     """The judgement of each answer; if the call fails, each scene is asked for by itself."""
     began = clock.process_time()
     try:
@@ -68,7 +68,7 @@ def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> lis
     return [Verdict(share, fault) for fault in faults]
 
 
-def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -> str | None:
+def _fault(scene: Scene, contacts: Contacts, k: int, expected: FirstContact | None) -> str | None:
     """Return the fault of the result for a scene; None if it is right."""
     if expected is None or not contacts.found[k]:
         if (expected is None) == (not contacts.found[k]):
@@ -86,11 +86,16 @@ def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -
     return None if printed == _first_incidence(scene, expected) else "pairs"
 
 
-def _first_incidence(scene: Scene, expected: Contact) -> list[int]:
+def _first_incidence(scene: Scene, expected: FirstContact) -> list[int]:
     """Body, vertex, edge and other vertex of the first incidence; -1 for what there is not."""
-    if not expected.pairs:
-        return [-1] * 4
-    first = expected.pairs[0]
-    edge = -1 if first.edge is None else first.edge
-    other = -1 if first.other_vertex is None else first.other_vertex
-    return [[body.name for body in scene.bodies].index(first.body), first.vertex, edge, other]
+    numbers = {body.name: i for i, body in enumerate(scene.bodies)}
+    rows = [
+        [
+            numbers[incidence.body],
+            incidence.vertex,
+            -1 if incidence.edge is None else incidence.edge,
+            -1 if incidence.other_vertex is None else incidence.other_vertex,
+        ]
+        for incidence in expected.incidences
+    ]
+    return min(rows, default=[-1] * 4)

@@ -8,15 +8,15 @@ from contextlib import suppress
 from typing import Final, NamedTuple
 
 from exactpt import Contact, InputError, Scene, Simulation, first_contact, stop
-from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.pieces import linear_pieces
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import run_and_audit
+from exactpt.testing.reference import FirstContact
 from fuzz.changes.images import halved
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
-from fuzz.questions.all_pairs import first_contact_allpairs
-from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
 from fuzz.witnesses import check_proof, contact_by, tilings_of
@@ -59,13 +59,13 @@ class Look(NamedTuple):
 
     Attributes:
         planned: the scene.
-        contact: the first contact by the reference; None if there is none.
+        contact: the first contact by definition; None if there is none.
         as_planned: whether it is at the planned time.
         answers: the answers of all methods.
     """
 
     planned: Planned
-    contact: Contact | None
+    contact: FirstContact | None
     as_planned: bool
     answers: list[Answer]
 
@@ -92,22 +92,22 @@ def look(planned: Planned) -> Look:
     """
     scene = planned.scene
     try:
-        expected = first_contact_allpairs(scene)
+        expected = reference.first_contact(scene)
     except Exception as error:  # any exception is a finding
         broken = Answer(REFERENCE, 0.0, type(error).__name__)
         return Look(planned, None, as_planned=False, answers=[broken])
 
     def compare(name: str) -> str | None:
-        return contrast(expected, contact_by(scene, name))
+        return _fault_of(expected, contact_by(scene, name))
 
     def go_on(name: str) -> str | None:
-        return contrast(expected, _before_going_on(scene, name))
+        return _fault_of(expected, _before_going_on(scene, name))
 
     def audit(name: str) -> None:
         run_and_audit(scene, name, middle=False)
 
     def judge_normals(_: str) -> str | None:
-        return wrong_normal(scene, expected)
+        return wrong_normal(scene, contact_by(scene, "pairs"))
 
     names = tilings_of(scene)
     searches = ("pairs",) if linear_pieces(scene) is None else ("auto", "pairs")
@@ -140,7 +140,12 @@ def _look_at_proof(planned: Planned) -> Look:
     return Look(planned, contact=None, as_planned=False, answers=[answer])
 
 
-def _as_planned(planned: Planned, contact: Contact | None) -> bool:
+def _fault_of(expected: FirstContact | None, contact: Contact | None) -> str | None:
+    difference = disagreement(expected, contact)
+    return None if difference is None else difference.what
+
+
+def _as_planned(planned: Planned, contact: FirstContact | None) -> bool:
     local = planned.clock.local[0]
     return contact is not None and not contact.time.sign_of(tuple(ZZ(c) for c in local))
 
@@ -155,21 +160,15 @@ def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answe
     return Answer(method, clock.process_time() - began, fault)
 
 
-def _new_contact(scene: Scene, contact: Contact | None) -> str | None:
+def _new_contact(scene: Scene, contact: FirstContact | None) -> str | None:
     """Return the fault of the first new contact, from the planned one on if it is simple."""
     if contact is not None and contact.time.is_rational and contact.time < scene.end:
         with suppress(InputError):  # a body that touches itself then
             scene = scene.since(contact.time.low)
-    expected = first_new_contact(scene)
+    expected = reference.first_new_contact(scene)
     for same, what in ((scene, "new contact"), (halved(scene), "new contact of cut edges")):
-        found = first_contact(same, after_start=True)
-        names = [body.name for body in same.bodies]
-        pairs = {
-            (min(ij), max(ij))
-            for p in (() if found is None else found.pairs)
-            for ij in [(names.index(p.body), names.index(p.other))]
-        }
-        if expected != (None if found is None else (found.time, pairs)):
+        found = plain_contact(first_contact(same, after_start=True))
+        if expected != (None if found is None else (found.time, found.names)):
             return what
     return None
 

@@ -19,8 +19,8 @@ from exactpt.arrays import first_contacts
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.testing import reference
 from fuzz.changes.images import Feature, Side
-from fuzz.questions.reference import nearest
 from fuzz.small_scope.by_arrays import suits
 
 __all__ = ["QUESTIONS", "Case", "NotAskedError", "Question", "Refusal", "answer"]
@@ -310,7 +310,7 @@ def _check_apart(side: Side, d: QQ) -> None:
         for b in bodies[:k]:
             if side.groups[a.name] == side.groups[b.name]:
                 reach = a.exact_radius + b.exact_radius + d
-                if nearest(a, b, side.scene.exact_start)[0] <= reach**2:
+                if reference.nearest(a, b, side.scene.exact_start).core_squared <= reach**2:
                     raise NotAskedError
 
 

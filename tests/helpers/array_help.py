@@ -5,11 +5,13 @@ from fractions import Fraction
 import numpy as np
 
 from exactpt.arrays import KINDS, first_contacts, point_segment_contacts
+from exactpt.testing.agreement import plain
 
 
 def agrees(contacts, i, truth):
     """Whether answer i is an exact contact: its kind, its first incidence, its time enclosed."""
     kind = KINDS[contacts.kind[i]]
+    truth = plain(truth)
     if truth is None:
         nowhere = np.isinf(contacts.low[i]) and np.isinf(contacts.high[i])
         return kind == "none" and not contacts.found[i] and nowhere
@@ -24,12 +26,18 @@ def agrees(contacts, i, truth):
 
 
 def first_incidence(contacts, i, truth):
-    """Of the first pair of a contact: body (0 or 1), vertex, edge, other vertex; or -1."""
-    if not truth.pairs:
-        return -1, -1, -1, -1
-    pair, names = truth.pairs[0], [body.name for body in contacts.scene(i).bodies]
-    edge, other = (-1 if n is None else n for n in (pair.edge, pair.other_vertex))
-    return names.index(pair.body), pair.vertex, edge, other
+    """Of the first incidence of a contact: body (0 or 1), vertex, edge, other vertex; or -1."""
+    names = [body.name for body in contacts.scene(i).bodies]
+    rows = [
+        (
+            names.index(incidence.body),
+            incidence.vertex,
+            -1 if incidence.edge is None else incidence.edge,
+            -1 if incidence.other_vertex is None else incidence.other_vertex,
+        )
+        for incidence in truth.incidences
+    ]
+    return min(rows, default=(-1, -1, -1, -1))
 
 
 def ulps(contacts):

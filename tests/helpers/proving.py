@@ -10,7 +10,7 @@ from exactpt import InputError, proof_check, proof_scene
 from exactpt.cgal import check_proof
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.written import scene_bytes
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
 
 __all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict", "without_hash"]
 
@@ -70,7 +70,7 @@ def accepted(scene, lines):
 
 def agrees(scene, contact):
     """Whether a contact is at the time of the reference's."""
-    expected = first_contact_allpairs(scene)
+    expected = reference.first_contact(scene)
     if contact is None or expected is None:
         return contact is expected
     return contact.time == expected.time

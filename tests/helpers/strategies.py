@@ -7,11 +7,11 @@ from math import lcm
 
 import flint
 from hypothesis import strategies as st
-from oracles import RealRoot, real_roots, separate
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import primitive, trimmed
 from exactpt.kernel.numbers import QQ, ZZ
+from fuzz.references.real_roots import RealRoot, real_roots, separate
 
 __all__ = [
     "algebraics",

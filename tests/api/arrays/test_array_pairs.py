@@ -6,10 +6,10 @@ from array_help import Table, agrees, boxes, some_pairs, stars, ulps
 
 from exactpt import InputError, Scene, first_contact
 from exactpt.arrays import blocks, first_contacts
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
 
 
-def assert_all_agree(table, ask=first_contact_allpairs):
+def assert_all_agree(table, ask=reference.first_contact):
     contacts = table.asked()
     count = len(contacts)
     assert [i for i in range(count) if not agrees(contacts, i, ask(contacts.scene(i)))] == []

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from exactpt import first_contact
 from exactpt.arrays import point_segment_contacts
 from exactpt.arrays import queries as module
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
 
 SIZES = (2.0**-1040, 2.0**-300, 2.0**-30, 1.0, 2.0**30, 2.0**300, 2.0**1020)
 
 
-def assert_all_agree(queries, ask=first_contact_allpairs):
+def assert_all_agree(queries, ask=reference.first_contact):
     contacts = queries.asked()
     wrong = [i for i in range(len(queries)) if not agrees(contacts, i, ask(contacts.scene(i)))]
     assert wrong == []

@@ -7,8 +7,8 @@ from commands import code_of
 from exactpt import Body, InputError, Scene, Translation, first_contact
 from exactpt.cli import cli
 from exactpt.kernel.numbers import QQ
+from exactpt.testing import reference
 from exactpt.testing.scenes import generate
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def box(name, x, motion=None, y=0):
@@ -72,7 +72,7 @@ def test_of_a_body_among_others_that_ignore_each_other(family, seed):
     scene = generate(family, seed)
     span = (scene.start, scene.end)
     one, *others = scene.bodies[:5]
-    alone = [first_contact_allpairs(Scene([one, other], span)) for other in others]
+    alone = [reference.first_contact(Scene([one, other], span)) for other in others]
 
     groups = [[other.name for other in others]] if len(others) > 1 else []
     found = first_contact(Scene([one, *others], span), method="pairs", ignoring=groups)

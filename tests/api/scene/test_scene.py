@@ -9,12 +9,12 @@ import pytest
 from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
-from oracles import exact
 from strategies import as_rational, fractions
 
 import exactpt
 from exactpt import AlgebraicNumber, Body, InputError, Pieces, Scene, Spin, Translation
 from exactpt.testing.scenes import SPINNING, generate
+from fuzz.references.real_roots import exact
 
 grid = st.tuples(st.integers(0, 3), st.integers(0, 3))
 

@@ -30,12 +30,12 @@ from exactpt import (
     first_within,
 )
 from exactpt.batch import Options, answers
-from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.stored import Stored
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.simulation.saved import tiling_from_json, tiling_to_json
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
 
 SQUARE = [(0, 0), (8, 0), (8, 8), (0, 8)]
 NOTCH = [(4, 0), (5, 2), (3, 2)]
@@ -144,9 +144,9 @@ KEPT = {
 @pytest.mark.parametrize("name", KEPT)
 def test_a_motion_that_keeps_the_shape_is_accepted_and_the_body_never_touches_itself(name):
     scene = scene_of(KEPT[name], Translation([4], [40, -20]), (0, 1))
-    contact, expected = first_contact(scene), first_contact_allpairs(scene)
-    assert contrast(expected, contact) is None
-    assert contrast(expected, first_contact(scene, exact_only=True)) is None
+    contact, expected = first_contact(scene), reference.first_contact(scene)
+    assert disagreement(expected, contact) is None
+    assert disagreement(expected, first_contact(scene, exact_only=True)) is None
     alone = Scene(scene.bodies[:1], scene.time)
     assert first_contact(alone) is None
     assert first_contact(alone, method="pairs", after_start=True) is None
@@ -254,7 +254,7 @@ def test_a_contact_in_the_point_of_the_touch_has_the_incidences_with_both_rings(
     """
     scene = scene_of(motion, Translation([4], [-1, 1]))
     contact = first_contact(scene, exact_only=exact_only)
-    assert contrast(first_contact_allpairs(scene), contact) is None
+    assert disagreement(reference.first_contact(scene), contact) is None
     assert contact.time == 1
     assert all(pair.body != pair.other for pair in contact.pairs)
     found = {(p.kind, p.edge, p.other_vertex) for p in contact.pairs} | {

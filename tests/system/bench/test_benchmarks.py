@@ -387,7 +387,7 @@ def test_a_wrong_answer_about_a_crowd_is_an_error(results, monkeypatch):
 
 
 def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, alone):
-    monkeypatch.setattr(small, "first_contact_allpairs", lambda _: None)
+    monkeypatch.setattr(small.reference, "first_contact", lambda _: None)
     with pytest.raises(AuditError, match="disagree about two triangles"):
         small.run(results.output, small.Sizes(3, 9, 3, 4, 1), 0)
 

@@ -27,7 +27,6 @@ from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.variants import VARIANTS, difference, expected_time
 from fuzz.planted import PLANTED, Found, _edited, hunt, table
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 pytestmark = pytest.mark.plain
 
@@ -211,7 +210,7 @@ def test_contact_of_an_awkward_image_is_the_image_of_the_contact(family):
     scene = scene_of(family, 2)
     image = variant.scene(scene)
 
-    found = first_contact_allpairs(image)
+    found = first_contact(image, exact_only=True)
     assert difference(variant, scene, first_contact(scene), found) is None
 
 

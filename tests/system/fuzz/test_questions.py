@@ -14,9 +14,9 @@ from exactpt.motion import curve
 from exactpt.motion.displacement import Placed, placed_at
 from exactpt.pairs.clearance import Minimum
 from exactpt.pairs.sure import surely_meet
+from exactpt.testing.reference import overlap
 from fuzz.questions import by_cgal, checks
 from fuzz.questions.command import questions
-from fuzz.questions.renewal import overlap
 from fuzz.questions.scenes import distant_scene
 from fuzz.questions.tiny import touching_scene
 
@@ -61,17 +61,17 @@ def never(*_, **__):
 
 
 @pytest.mark.parametrize(
-    "question, planted, bug",
+    "question, where, planted, bug",
     [
-        ("distance", "first_within", never),
-        ("approach", "first_within", never),
-        ("intervals", "contact_intervals", lambda *_: []),
-        ("after-start", "first_contact", never),
-        ("after-start", "first_new_contact", never),
+        ("distance", checks, "first_within", never),
+        ("approach", checks, "first_within", never),
+        ("intervals", checks, "contact_intervals", lambda *_: []),
+        ("after-start", checks, "first_contact", never),
+        ("after-start", checks.reference, "first_new_contact", never),
     ],
 )
-def test_a_wrong_answer_is_found(question, planted, bug, monkeypatch, tmp_path):
-    monkeypatch.setattr(checks, planted, bug)
+def test_a_wrong_answer_is_found(question, where, planted, bug, monkeypatch, tmp_path):
+    monkeypatch.setattr(where, planted, bug)
     result = run("--question", question, "--cases", "20", "--keep", str(tmp_path))
 
     assert result.exit_code == 1

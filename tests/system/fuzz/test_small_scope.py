@@ -19,11 +19,11 @@ from exactpt.kernel.numbers import QQ
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
+from exactpt.testing import reference
 from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.changes.images import halved
 from fuzz.planted import PLANTED
-from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.small_scope import tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
@@ -193,7 +193,7 @@ def test_every_cell_has_a_planned_contact():
 
 
 def as_planned(scene):
-    contact = first_contact_allpairs(scene.scene)
+    contact = reference.first_contact(scene.scene)
     local = scene.clock.local[0].coefficients
     return contact is not None and not contact.time.sign_of(tuple(int(c) for c in local))
 
@@ -438,7 +438,7 @@ def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
     monkeypatch.setattr("exactpt.testing.truth.first_contacts", ask)
     scenes = [s.scene for s in map(planned, range(200)) if suits(s.scene)]
 
-    reported = verdicts(scenes, [first_contact_allpairs(scene) for scene in scenes])
+    reported = verdicts(scenes, [reference.first_contact(scene) for scene in scenes])
 
     wrong = [scene.vertex_count > 2 for scene in scenes]
     assert [v.fault == "ZeroDivisionError" for v in reported] == wrong

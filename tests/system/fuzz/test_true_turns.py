@@ -6,7 +6,7 @@ import pytest
 from exactpt import AlgebraicNumber, Body, PosePath, Scene, Spin, Translation
 from fuzz.questions import spinning
 from fuzz.questions.spinning import case_of
-from fuzz.questions.true_turns import DIGITS, Truth
+from fuzz.references.true_turns import DIGITS, Truth
 
 BLADE = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 3), error="1/1000"))
 WALL = Body("wall", [(-1, 1), (1, 1), (1, 2), (-1, 2)])

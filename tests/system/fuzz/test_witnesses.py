@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 from folding import every
 
-from exactpt import AlgebraicNumber, Scene
+from exactpt import AlgebraicNumber, Scene, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
@@ -21,7 +21,6 @@ from fuzz.changes.excerpts import MOST, WHOLE, scene_of, subscene
 from fuzz.changes.thin import SUFFIX
 from fuzz.changes.variants import VARIANTS, difference, expected_time
 from fuzz.old_engine.build import is_built
-from fuzz.questions.all_pairs import first_contact_allpairs
 from fuzz.witnesses import OLD, WITNESSES
 
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")
@@ -96,22 +95,20 @@ def colliding(family):
     """The first small scene of a family with a contact, and the contact."""
     for seed in range(40):
         scene = generate(family, seed)
-        if scene.vertex_count <= 24 and (contact := first_contact_allpairs(scene)):
+        if scene.vertex_count <= 24 and (contact := first_contact(scene, exact_only=True)):
             return scene, contact
     return None
 
 
 @pytest.mark.parametrize("family", [f for f in sorted(FAMILIES) if f not in ("convoy", "chains")])
-def test_the_reference_is_symmetric(family):
+def test_the_exact_search_is_symmetric(family):
     found = colliding(family)
     if found is None:
         return
     scene, contact = found
     for name in FORWARDS:
-        image = VARIANTS[name].scene(scene)
-        assert difference(VARIANTS[name], scene, contact, first_contact_allpairs(image)) is None, (
-            name
-        )
+        found = first_contact(VARIANTS[name].scene(scene), exact_only=True)
+        assert difference(VARIANTS[name], scene, contact, found) is None, name
 
 
 @every("name", VARIANTS)
@@ -158,7 +155,7 @@ def altered(contact, **changes):
 def test_each_kind_of_difference_is_seen():
     scene, contact = colliding("small_grid")
     plain = VARIANTS["mirrored"]
-    image = first_contact_allpairs(plain.scene(scene))
+    image = first_contact(plain.scene(scene), exact_only=True)
     pair = image.pairs[0]
     moved = replace(pair, point=(pair.point[0] + 1e-3, pair.point[1]))
 

@@ -3,7 +3,6 @@
 from random import Random
 
 import pytest
-from gvpt_oracle import Scene as Oracle
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -13,6 +12,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
 from exactpt.testing.audits import audit_at
+from exactpt.testing.reference.greedy import ConvexBodies as Oracle
 from exactpt.testing.scenes import CONVEX, FAMILIES, generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound, Stats

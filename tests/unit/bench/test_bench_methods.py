@@ -22,7 +22,7 @@ from benchmarks.wrong_answers import Wrong, count_wrong
 from exactpt import Body, Scene, Translation
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
-from fuzz.questions.all_pairs import first_contact_allpairs
+from exactpt.testing import reference
 
 STEPS = 128
 ANSWERS = [
@@ -205,7 +205,7 @@ def planted(family, count=4):
 @every("family", FAMILIES)
 def test_the_planted_answer_is_true(family):
     for scene, truth in planted(family):
-        contact = first_contact_allpairs(scene)
+        contact = reference.first_contact(scene)
         assert (contact and contact.time) == truth
         assert family not in NO_CONTACT or truth is None
         assert family not in ALWAYS_CONTACT or truth is not None

@@ -10,7 +10,8 @@ from exactpt import Body, InputError, Scene
 from exactpt.geometry.touching_rings import FaultKind, dividing_loop, ring_meetings
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.rings import ring_edges
-from fuzz.questions.touching_rings import is_valid_by_cells, random_parts
+from exactpt.testing.reference.valid import is_valid
+from fuzz.questions.touching_rings import random_parts
 
 SQUARE = [(0, 0), (8, 0), (8, 8), (0, 8)]
 
@@ -173,7 +174,7 @@ def accepted(parts):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_what_is_accepted_is_valid_by_geos_and_by_cutting_into_trapezoids(seed):
-    """On integers, shapely's `is_valid` is exact enough; the third way is `is_valid_by_cells`."""
+    """On integers, shapely's `is_valid` is exact enough; the third way is that by cells."""
     random, counts = Random(f"valid:{seed}"), {True: 0, False: 0}
     for _ in range(100):
         parts = random_parts(random)
@@ -181,6 +182,6 @@ def test_what_is_accepted_is_valid_by_geos_and_by_cutting_into_trapezoids(seed):
         whole = MultiPolygon(polygons) if len(polygons) > 1 else polygons[0]
         found = accepted(parts)
         assert found == whole.is_valid, (parts, shapely.is_valid_reason(whole))
-        assert found == is_valid_by_cells(parts), parts
+        assert found == is_valid(parts), parts
         counts[found] += 1
     assert min(counts.values()) > 20

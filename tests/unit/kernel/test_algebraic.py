@@ -11,7 +11,15 @@ import sympy
 from folding import every
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from oracles import (
+from strategies import algebraics, as_int_poly, as_rational, factors, fractions, int_polys, times
+
+from exactpt.errors import InputError
+from exactpt.kernel import approximation
+from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
+from exactpt.kernel.integer_polynomial import multiply, sign_at
+from exactpt.kernel.numbers import QQ, rational
+from exactpt.kernel.roots import roots_after
+from fuzz.references.real_roots import (
     compare,
     compare_with_rational,
     exact,
@@ -22,14 +30,6 @@ from oracles import (
     sign_at_root,
     sign_just_after,
 )
-from strategies import algebraics, as_int_poly, as_rational, factors, fractions, int_polys, times
-
-from exactpt.errors import InputError
-from exactpt.kernel import approximation
-from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
-from exactpt.kernel.integer_polynomial import multiply, sign_at
-from exactpt.kernel.numbers import QQ, rational
-from exactpt.kernel.roots import roots_after
 
 histories = st.lists(
     st.one_of(

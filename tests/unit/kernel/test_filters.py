@@ -10,12 +10,12 @@ import pytest
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import value
 from strategies import as_rational, small
 
 from exactpt.kernel import filters, windows
 from exactpt.kernel.numbers import QQ, rational
 from fuzz.filter_attacks import Case, answer, extreme, generic, hostile, judge, variants
+from fuzz.references.real_roots import value
 
 DEGREES = [1, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
 NOTHING = (math.inf, math.inf)

@@ -14,12 +14,19 @@ from itertools import pairwise
 
 import flint
 import pytest
-from oracles import compare, is_root, nearest_double, real_roots, separate, sign_at_root
 from strategies import as_int_poly, as_rational, times
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
+from fuzz.references.real_roots import (
+    compare,
+    is_root,
+    nearest_double,
+    real_roots,
+    separate,
+    sign_at_root,
+)
 
 GAP = 2**200
 

@@ -5,7 +5,6 @@ from fractions import Fraction
 import flint
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
-from oracles import exact, real_roots, value
 from strategies import (
     as_int_poly,
     as_primitive,
@@ -38,6 +37,7 @@ from exactpt.kernel.integer_polynomial import (
     trimmed,
 )
 from exactpt.kernel.numbers import ZZ
+from fuzz.references.real_roots import exact, real_roots, value
 
 nonzero = int_polys.filter(bool)
 huge = st.lists(st.integers(-(2**200), 2**200), max_size=6).map(lambda f: trimmed(as_int_poly(f)))

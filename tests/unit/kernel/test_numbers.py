@@ -13,7 +13,6 @@ import sympy
 from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
-from oracles import exact, is_nearest_double
 from strategies import as_rational, doubles, fractions, wide_fractions
 
 from exactpt import AlgebraicNumber, InputError
@@ -33,6 +32,7 @@ from exactpt.kernel.numbers import (
     shorten,
     sign,
 )
+from fuzz.references.real_roots import exact, is_nearest_double
 
 LARGEST = Fraction(math.nextafter(math.inf, 0.0))
 SMALLEST = Fraction(5e-324)

@@ -8,12 +8,12 @@ import pytest
 import sympy
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import exact
 from strategies import as_rational, fractions, wide_fractions
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
+from fuzz.references.real_roots import exact
 
 t = sympy.Symbol("t")
 polys = st.lists(st.one_of(fractions, wide_fractions), max_size=5).map(Polynomial)

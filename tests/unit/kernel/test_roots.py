@@ -7,7 +7,6 @@ import pytest
 from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
-from oracles import compare, compare_with_rational, is_root, real_roots, sign_just_after
 from strategies import (
     algebraics,
     as_int_poly,
@@ -22,6 +21,13 @@ from strategies import (
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
+from fuzz.references.real_roots import (
+    compare,
+    compare_with_rational,
+    is_root,
+    real_roots,
+    sign_just_after,
+)
 
 nonzero = int_polys.filter(bool)
 

@@ -9,12 +9,12 @@ import pytest
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import value
 from strategies import small
 
 from exactpt.kernel import sextics
 from exactpt.kernel.numbers import QQ, rational
 from fuzz.filter_attacks import Case, answer, hostile, judge
+from fuzz.references.real_roots import value
 
 U = Fraction(1, 2**53)
 

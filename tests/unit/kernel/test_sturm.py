@@ -6,7 +6,6 @@ import pytest
 import sympy
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
-from oracles import compare_with_rational, exact, real_roots, value
 from strategies import as_int_poly, as_rational, fractions, int_polys, planted_polys, times
 
 from exactpt.errors import InputError
@@ -14,6 +13,7 @@ from exactpt.kernel import sturm
 from exactpt.kernel.descartes import HALVINGS, single_roots
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.sturm import cauchy_bound, count_roots, isolating_intervals, sturm_sequence
+from fuzz.references.real_roots import compare_with_rational, exact, real_roots, value
 
 nonzero = int_polys.filter(bool)
 

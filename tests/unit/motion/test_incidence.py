@@ -4,12 +4,12 @@ from fractions import Fraction
 
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import exact
 from strategies import algebraics, as_int_poly, as_rational, fractions, trim
 
 from exactpt import Affine, AlgebraicNumber, Body, Rigid, Translation
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.motion.track import Track, coincide, lies_on, orientation_polynomial
+from fuzz.references.real_roots import exact
 
 coefficients = st.lists(fractions, max_size=2)
 motions = st.one_of(

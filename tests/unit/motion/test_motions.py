@@ -11,7 +11,6 @@ import pytest
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import body_at, exact, motion_at
 from strategies import as_rational, body_data, fractions
 
 from exactpt import (
@@ -28,6 +27,8 @@ from exactpt import (
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import REST
 from exactpt.scene.format import loads
+from exactpt.testing.reference.positions import body_at, motion_at
+from fuzz.references.real_roots import exact
 
 times = st.one_of(fractions, st.builds(Fraction, st.integers(-99, 99), st.integers(1, 99)))
 points = st.tuples(fractions, fractions)

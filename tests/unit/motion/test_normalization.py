@@ -6,7 +6,6 @@ from fractions import Fraction
 
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import compare_with_rational, exact, value
 from strategies import algebraics, as_rational, fractions
 
 from exactpt import Polynomial, Rigid
@@ -14,6 +13,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.track import track
+from fuzz.references.real_roots import compare_with_rational, exact, value
 
 UNIT = Fraction(1, 2**53)
 powers = st.one_of(st.just(0), st.integers(-60, 60), st.integers(-1100, 1100))

@@ -10,8 +10,8 @@ import shapely
 from exactpt import Body, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.overlap import overlap
-from fuzz.questions import renewal
-from fuzz.questions.crossing import chains_cross
+from exactpt.testing import reference
+from exactpt.testing.reference.crossing import chains_cross
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 """A polygon: a list that ends where it begins."""
@@ -136,7 +136,7 @@ def test_overlap_does_not_depend_on_further_vertices(first, second, p, q, expect
     shapes = [cut(points, n) for points, n in zip((p, q), parts, strict=True)]
     for a, b in (shapes, [s[::-1] for s in shapes], shapes[::-1]):
         assert overlap(body("a", a), body("b", b), QQ(0)) is expected
-        assert renewal.overlap(body("a", a), body("b", b), QQ(0)) is expected
+        assert reference.overlap(body("a", a), body("b", b), QQ(0)) is expected
 
 
 WALL = [(-2, 0), (2, 0)]

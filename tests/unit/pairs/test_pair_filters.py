@@ -16,7 +16,7 @@ from exactpt.pairs.filters import candidates_of, window
 from exactpt.pairs.pieces import ContactDistance
 from exactpt.pairs.rational import span_of
 from exactpt.pairs.search import first_of_candidates
-from fuzz.questions.all_pairs_radii import core_distance, first_at_distance
+from exactpt.testing.reference import first_within, nearest
 
 SHAPES = [
     [(0, 0)],
@@ -56,11 +56,10 @@ def test_filter_with_radius_loses_no_first_contact_of_the_definition(seed):
     while compared < 60:
         a, b = hard_pair(rng)
         reach = a.exact_radius + b.exact_radius
-        if core_distance(a, b, QQ(0)) <= reach**2:
+        if nearest(a, b, 0).core_squared <= reach**2:
             continue
         compared += 1
-        p, q = (x.exact_piece_after(QQ(0)).tracks for x in (a, b))
-        expected = first_at_distance(a, b, p, q, (QQ(0), end))
+        expected = first_within(a, b, (0, end), reach**2)
         pieces = [straight_pieces(x)[0][0] for x in (a, b)]
         distance = ContactDistance.of(reach**2, reach)
         span = span_of(QQ(0), end)

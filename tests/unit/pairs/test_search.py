@@ -14,8 +14,8 @@ from exactpt.pairs import pieces
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.start import near_at_start, within_at_start
+from exactpt.testing import reference
 from exactpt.testing.scenes import FAMILIES, generate
-from fuzz.questions import reference
 from fuzz.questions.tiny import touching_scene
 
 
@@ -84,7 +84,7 @@ def defined(scene, squared):
     """The first approach of any two bodies, from the definition."""
     found = []
     for a, b in combinations(scene.bodies, 2):
-        time = reference.first_within(a, b, scene.exact_start, scene.exact_end, squared)
+        time = reference.first_within(a, b, scene.time, squared)
         if time is not None:
             found.append((time, (a.name, b.name)))
     least = min((time for time, _ in found), default=None)

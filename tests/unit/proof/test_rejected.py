@@ -11,10 +11,10 @@ from exactpt.kernel.numbers import QQ
 from exactpt.proof.emit import ProofRun
 from exactpt.scene.format import loads
 from exactpt.scene.written import scene_bytes
+from exactpt.testing import reference
 from exactpt.testing.scenes import generate
 from exactpt.tiling import engine, touching
 from fuzz.proofs.wrong import spliced, touching_and_going
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 
@@ -81,14 +81,14 @@ def test_spliced_runs(tiling):
     random, wrong, right = Random(tiling), 0, 0
     for _ in range(40):
         scene = touching_and_going(random, with_event=False)
-        contact = first_contact_allpairs(scene)
+        contact = reference.first_contact(scene)
         if contact is None:
             lines = spliced(scene, QQ(1), QQ(1), tiling)
             assert accepted(scene, lines)
             right += 1
         elif contact.time == 1:
             later = Scene.going_on(scene, scene.bodies, QQ(1) + QQ(1, 2**20))
-            if first_contact_allpairs(later) is None:
+            if reference.first_contact(later) is None:
                 lines = spliced(scene, QQ(1), later.exact_start, tiling)
                 answer = verdict(scene, lines)
                 assert " at t = 1" in answer
@@ -260,7 +260,7 @@ def test_an_engine_that_is_blind_to_contacts(tiling, monkeypatch):
     random, right, wrong = Random(f"blind {tiling}"), 0, 0
     for _ in range(60):
         scene = touching_and_going(random, with_event=False)
-        if (expected := first_contact_allpairs(scene)) and expected.kind == "initial":
+        if (expected := reference.first_contact(scene)) and expected.kind == "initial":
             continue
         try:
             lines, contact = proof_of(scene, tiling)

@@ -7,13 +7,16 @@ from random import Random
 import pytest
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation
+from exactpt.geometry.predicates import orient2d
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.course import Piece
 from exactpt.pairs.start import initial_touches
+from exactpt.testing.reference import homotopy
+from exactpt.testing.reference import space as definition
+from exactpt.testing.reference.shapes import is_on_segment
 from exactpt.testing.scenes import FAMILIES, RINGS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import start_tiling
-from fuzz.questions import brute
 
 
 def spaces(family, seeds, tiling="auto"):
@@ -66,13 +69,13 @@ def check_places_and_rays(space, bodies, rng, count):
     for _ in range(count):
         p, q = some_point(rng, bodies), some_point(rng, bodies)
         place = space.locate(p)
-        found = brute.owner(p, bodies)
+        found = definition.owner(p, bodies)
         assert (place.body, place.vertex, place.edge) == (found or (None, None, None))
         assert place.is_free == (found is None)
         if p == q:
             continue
         direction = (q[0] - p[0], q[1] - p[1])
-        hit, expected = space.ray_cast(p, direction), brute.first_hit(p, direction, bodies)
+        hit, expected = space.ray_cast(p, direction), definition.first_hit(p, direction, bodies)
         assert (hit and (hit.at, hit.body, hit.vertex, hit.edge)) == expected
         if hit is not None:
             assert hit.point == tuple(p[k] + hit.at * direction[k] for k in (0, 1))
@@ -81,14 +84,12 @@ def check_places_and_rays(space, bodies, rng, count):
 
 def check_hull(space, bodies):
     hull = [bodies[b][v] for b, v in space.hull()]
-    corners = brute.convex_hull([p for ps in bodies.values() for p in ps])
+    corners = definition.convex_hull([p for ps in bodies.values() for p in ps])
     assert set(corners) <= set(hull)
     for a, b in zip(corners, [*corners[1:], corners[0]], strict=True):
-        assert all(brute.cross(a, b, p) >= 0 for p in hull)
+        assert all(orient2d(a, b, p) >= 0 for p in hull)
     assert all(
-        any(
-            brute.on_segment(p, a, b) for a, b in zip(corners, corners[-1:] + corners, strict=False)
-        )
+        any(is_on_segment(p, a, b) for a, b in zip(corners, corners[-1:] + corners, strict=False))
         for p in hull
     )
 
@@ -96,17 +97,17 @@ def check_hull(space, bodies):
 def check_taut(path, bodies):
     """No body in the way, and one at every bend: so the path is the shortest of its class."""
     points = path.points
-    assert not any(brute.crosses(p, q, bodies) for p, q in pairwise(points))
+    assert not any(definition.crosses(p, q, bodies) for p, q in pairwise(points))
     for i, (name, vertex) in enumerate(path.bends):
         assert bodies[name][vertex] == points[i + 1]
-        assert brute.bends_around(*points[i : i + 3], bodies[name], vertex)
+        assert definition.bends_around(*points[i : i + 3], bodies[name], vertex)
 
 
 def check_paths(space, bodies, rng, count):
     """Paths are taut, and a shortened walk can be deformed into the walk."""
     found = 0
-    obstacles = brute.split_into_parts(bodies)
-    inner = {name: brute.inner_point(points, rng) for name, points in obstacles.items()}
+    obstacles = homotopy.split_into_parts(bodies)
+    inner = {name: homotopy.inner_point(points, rng) for name, points in obstacles.items()}
     for _ in range(count):
         walk = [some_point(rng, bodies)]
         for _ in range(rng.randint(1, 12)):
@@ -124,14 +125,14 @@ def check_paths(space, bodies, rng, count):
         check_taut(path, bodies)
         assert (path.points[0], path.points[-1]) == (walk[0], walk[-1])
         check_taut(direct, bodies)
-        anchors = brute.anchors_beside(path.points, obstacles, inner)
-        assert brute.crossing_word(walk, anchors) == brute.crossing_word(path.points, anchors)
+        anchors = homotopy.anchors_beside(path.points, obstacles, inner)
+        assert homotopy.crossing_word(walk, anchors) == homotopy.crossing_word(path.points, anchors)
     return found
 
 
 def check_relative_hulls(space, bodies, rng):
     """Around one body and no other, nothing in the way, and taut: so it is the shortest."""
-    anchors = {name: brute.inner_point(points, rng) for name, points in bodies.items()}
+    anchors = {name: homotopy.inner_point(points, rng) for name, points in bodies.items()}
     for body, own in bodies.items():
         if len(getattr(own, "parts", ())) > 1:
             with pytest.raises(InputError, match="has several parts: no loop"):
@@ -144,17 +145,17 @@ def check_relative_hulls(space, bodies, rng):
             continue
         for i, (name, vertex) in enumerate(hull):
             before, here, after = points[i - 1], points[i], points[(i + 1) % len(points)]
-            assert not brute.crosses(here, after, bodies)
-            turn = brute.cross(before, here, after)
+            assert not definition.crosses(here, after, bodies)
+            turn = orient2d(before, here, after)
             if turn:
                 assert turn < 0 or name == body
-                assert brute.bends_around(before, here, after, bodies[name], vertex)
+                assert definition.bends_around(before, here, after, bodies[name], vertex)
         for name, p in anchors.items():
-            if any(brute.on_segment(p, points[i - 1], points[i]) for i in range(len(points))):
-                assert len(bodies[name]) < 3 or isinstance(bodies[name], brute.OpenChain)
+            if any(is_on_segment(p, points[i - 1], points[i]) for i in range(len(points))):
+                assert len(bodies[name]) < 3 or isinstance(bodies[name], definition.OpenChain)
             else:
-                is_around = name == body or brute.is_in_hole(p, own)
-                assert brute.winding(p, points) == is_around
+                is_around = name == body or definition.is_in_hole(p, own)
+                assert definition.winding(p, points) == is_around
 
 
 def check_neighbours(space, bodies):
@@ -183,32 +184,32 @@ def test_bug_a_path_along_a_chain_is_told_by_what_it_does_not_touch():
     chain = [(0, 0), (4, 0), (4, -3)]
     scene = Scene([Body("chain", chain, closed=False), Body("point", [(9, 1)])])
     space = FreeSpace(start_tiling(scene, "auto", scene.start), scene.start)
-    bodies = brute.points_of(scene, 0)
-    inner = {name: brute.inner_point(points, None) for name, points in bodies.items()}
+    bodies = definition.points_of(scene, 0)
+    inner = {name: homotopy.inner_point(points, None) for name, points in bodies.items()}
     walk = [(-1, -2), (-1, 1), (5, 1), (5, -2)]
 
     over, under = space.shorten(walk), space.shorten([walk[0], (-1, -4), (5, -4), walk[-1]])
 
     assert over.points == (walk[0], (0, 0), (4, 0), walk[-1])
-    anchors = brute.anchors_beside(over.points, bodies, inner)
+    anchors = homotopy.anchors_beside(over.points, bodies, inner)
     assert anchors == {"chain": (4, -3), "point": (9, 1)}
-    word = brute.crossing_word(walk, anchors)
-    assert word == brute.crossing_word(over.points, anchors) == [("chain", 1)]
-    assert brute.crossing_word(under.points, anchors) == []
+    word = homotopy.crossing_word(walk, anchors)
+    assert word == homotopy.crossing_word(over.points, anchors) == [("chain", 1)]
+    assert homotopy.crossing_word(under.points, anchors) == []
 
 
 def test_bug_the_way_back_over_two_anchors_in_one_column_undoes_the_way_there():
     """It was in the same order as the way there (chains_on_grid:1)."""
     anchors = {"a": (1, 4), "b": (1, 2), "c": (1, 9)}
 
-    assert brute.crossing_word([(0, 5), (2, 6)], anchors) == [("a", 1), ("b", 1)]
-    assert brute.crossing_word([(0, 5), (2, 6), (2, 5), (0, 6)], anchors) == []
-    assert brute.crossing_word([(0, 5), (1, 6), (0, 7)], anchors) == []
-    assert brute.crossing_word([(0, 5), (2, 6), (1, 3), (0, 3)], anchors) == [("a", 1)]
+    assert homotopy.crossing_word([(0, 5), (2, 6)], anchors) == [("a", 1), ("b", 1)]
+    assert homotopy.crossing_word([(0, 5), (2, 6), (2, 5), (0, 6)], anchors) == []
+    assert homotopy.crossing_word([(0, 5), (1, 6), (0, 7)], anchors) == []
+    assert homotopy.crossing_word([(0, 5), (2, 6), (1, 3), (0, 3)], anchors) == [("a", 1)]
 
 
 def test_points_that_a_path_covers_anchor_nothing():
-    assert brute.anchors_beside([(0, 0), (4, 0)], {"p": [(1, 0)]}, {"p": (1, 0)}) == {}
+    assert homotopy.anchors_beside([(0, 0), (4, 0)], {"p": [(1, 0)]}, {"p": (1, 0)}) == {}
 
 
 @pytest.mark.long("chains", "flat", "grids_passing", "lakes", "mixed_shapes", "pieces")
@@ -216,7 +217,7 @@ def test_points_that_a_path_covers_anchor_nothing():
 def test_queries_are_those_of_brute_force(family):
     """Places, rays, segments, paths, hulls: a few dozen in each family."""
     for scene, space, rng in spaces(family, range(2)):
-        bodies = brute.points_of(scene, space.at)
+        bodies = definition.points_of(scene, space.at)
         check_places_and_rays(space, bodies, rng, 20)
         check_hull(space, bodies)
         check_neighbours(space, bodies)
@@ -233,7 +234,7 @@ def test_queries_are_those_of_brute_force_ten_thousand_times(tiling):
     while min(done["rays"], done["paths"]) < 10_000:
         for family in (*FAMILIES, *RINGS):
             for scene, space, rng in spaces(family, (seed,), tiling):
-                bodies = brute.points_of(scene, space.at)
+                bodies = definition.points_of(scene, space.at)
                 check_places_and_rays(space, bodies, rng, 60)
                 check_hull(space, bodies)
                 check_neighbours(space, bodies)
@@ -274,7 +275,7 @@ def test_edges_crossed_are_of_the_order_of_bodies():
         scene = generate("convex", seed)
         space = FreeSpace(start_tiling(scene, "greedy", scene.start), scene.start)
         rng = Random(seed)
-        bodies = brute.points_of(scene, space.at)
+        bodies = definition.points_of(scene, space.at)
         for _ in range(50):
             p, q = some_point(rng, bodies), some_point(rng, bodies)
             crossed = [space.locate(p).crossed]
@@ -289,7 +290,7 @@ def test_scenes_of_few_points():
     for count in range(4):
         scene = Scene([Body(f"p{i}", [(2 * i, i)]) for i in range(count)], (0, 1))
         space = FreeSpace(start_tiling(scene, "auto", scene.start), QQ(0))
-        bodies = brute.points_of(scene, 0)
+        bodies = definition.points_of(scene, 0)
         assert len(set(space.hull())) == count
         if count:
             check_places_and_rays(space, bodies, Random(count), 200)
@@ -310,7 +311,7 @@ def test_a_mouth_pulled_shut():
     for tiling in ("mixed", "lazy"):
         space = FreeSpace(start_tiling(scene, tiling, scene.start), QQ(0))
         assert space.relative_hull("jaw").count(("jaw", 10)) == 2
-        check_relative_hulls(space, brute.points_of(scene, 0), Random(0))
+        check_relative_hulls(space, definition.points_of(scene, 0), Random(0))
 
 
 def test_paths_lead_around_the_hull():

@@ -12,13 +12,14 @@ import pytest
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles import body_at, exact
 from strategies import as_rational, fractions, scene_data
 
 from exactpt import Body, InputError, Polynomial, Scene, Translation
 from exactpt.motion.motions import REST
 from exactpt.scene.format import load, loads
 from exactpt.scene.written import _of_double, save, scene_bytes, to_json
+from exactpt.testing.reference.positions import body_at
+from fuzz.references.real_roots import exact
 
 SCENES = Path(__file__).parents[2] / "data" / "scenes"
 NAMES = sorted(path.stem for path in SCENES.glob("*_*.json"))

@@ -7,9 +7,9 @@ import pytest
 from exactpt import Body, BudgetExceeded, InputError, Scene, Simulation, Translation
 from exactpt.kernel.numbers import QQ
 from exactpt.simulation.tile import tile_at
+from exactpt.testing import reference
 from exactpt.testing.scenes import generate
 from exactpt.tiling.start import TILINGS
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 
 def meeting(gap=4):
@@ -85,7 +85,7 @@ def test_the_number_of_events_is_bounded(most):
 
     reached = spent.value.reached
     assert scene.start <= reached <= scene.end
-    assert first_contact_allpairs(scene.until(max(reached, QQ(1, 10**9)))) is None
+    assert reference.first_contact(scene.until(max(reached, QQ(1, 10**9)))) is None
 
 
 def test_the_time_is_bounded():
@@ -98,7 +98,7 @@ def test_the_time_is_bounded():
 @pytest.mark.parametrize("tiling", sorted(set(TILINGS) - {"lazy"}))
 def test_a_canonical_tiling_is_the_same_built_and_reached(family, tiling):
     scene = generate(family, 0)
-    assert first_contact_allpairs(scene) is None
+    assert reference.first_contact(scene) is None
     for i in range(4):
         t = scene.start + (scene.end - scene.start) * QQ(i, 3)
         built = tile_at(scene, t, tiling=tiling).to_json()

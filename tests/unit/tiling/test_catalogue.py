@@ -12,11 +12,11 @@ import exactpt
 from exactpt import AlgebraicNumber, Body, InputError, Scene, Simulation, first_contact
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.algebraic import rational_between
+from exactpt.testing import reference
 from exactpt.testing.scenes import generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling, tilings_for
-from fuzz.questions.all_pairs import first_contact_allpairs
 
 PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRules")
 
@@ -77,7 +77,7 @@ def test_a_structure_from_outside_is_kept_up_to_date(registered, family):
         except ContactFound:
             pass
         ranks += kinetic.stats.events.get("rank", 0)
-        expected, found = first_contact_allpairs(scene), first_contact(scene, tiling="ranked")
+        expected, found = reference.first_contact(scene), first_contact(scene, tiling="ranked")
         assert (expected and expected.time) == (found and found.time)
     assert ranks > 0
 

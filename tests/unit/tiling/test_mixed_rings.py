@@ -2,7 +2,6 @@
 
 from random import Random
 
-import brute_rings
 import pytest
 from folding import every
 
@@ -13,6 +12,7 @@ from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.mesh import FREE
+from exactpt.testing.reference.space import components
 from exactpt.testing.scenes import RINGS, generate
 from exactpt.testing.scenes.shapes import hull
 from exactpt.tiling.mixed.forest import Forest
@@ -63,7 +63,7 @@ def test_each_node_has_one_face_and_f2_those_of_each_component(family, count):
         assert len(inner) == len(set(inner))
         assert not mesh.forest.leaves & set(inner)
         assert nodes.count(-1) == sum(
-            max(0, 2 * len(outlines) - 2) for outlines in brute_rings.components(scene).values()
+            max(0, 2 * len(outlines) - 2) for outlines in components(scene).values()
         )
 
 

@@ -1,4 +1,4 @@
-"""The other way to know: SymPy, FLINT and `Fraction`, never the code under test.
+"""Real roots by their definition: SymPy, FLINT and `Fraction`, no module of `exactpt`.
 
 A real algebraic number is here an irreducible integer polynomial (FLINT factors) and an
 isolating interval (SymPy isolates), refined by bisection over `Fraction`. Two such
@@ -9,23 +9,22 @@ are, so no question below needs a numerical tolerance.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cmp_to_key
-from typing import Any
+from typing import Any, Final, TypeAlias
 
 import flint
 import sympy
 
 __all__ = [
     "RealRoot",
-    "body_at",
     "compare",
     "compare_with_rational",
     "exact",
     "is_nearest_double",
     "is_root",
-    "motion_at",
     "nearest_double",
     "real_roots",
     "separate",
@@ -34,28 +33,34 @@ __all__ = [
     "value",
 ]
 
-T = sympy.Symbol("t")
+T: Final = sympy.Symbol("t")
+
+Ratio: TypeAlias = Any
+"""A rational number of any library."""
+
+Coefficients: TypeAlias = Sequence[Any]
+"""Integers of any type, the constant first."""
 
 
-def exact(q) -> Fraction:
-    """The `Fraction` of any rational (by way of its text it would be limited to 4,300 digits)."""
+def exact(q: Ratio) -> Fraction:
+    """Return the `Fraction` of any rational; by way of its text it had 4,300 digits at most."""
     return Fraction(int(q.numerator), int(q.denominator))
 
 
-def value(f, t):
-    """f(t), coefficients constant term first."""
+def value(f: Coefficients, t: Fraction) -> Fraction:
+    """Return f(t)."""
     result = Fraction(0)
     for c in reversed(f):
         result = result * t + Fraction(int(c))
     return result
 
 
-def _sign(x):
+def _sign(x: Fraction | int) -> int:
     return (x > 0) - (x < 0)
 
 
-def _sign_at(f, t):
-    """The sign of f(t), in integers: the sum of c[i] p^i q^(n-i)."""
+def _sign_at(f: Coefficients, t: Fraction) -> int:
+    """Return the sign of f(t), in integers: the sum of c[i] p^i q^(n-i)."""
     p, q, result, power = t.numerator, t.denominator, 0, 1
     for c in reversed(f):
         result = result * p + c * power
@@ -74,10 +79,12 @@ class RealRoot:
     multiplicity: int = 1
 
     @property
-    def is_rational(self):
+    def is_rational(self) -> bool:
+        """Whether its polynomial is linear."""
         return len(self.factor) == 2
 
-    def refine(self):
+    def refine(self) -> None:
+        """Halve the interval."""
         if self.is_rational:
             return
         middle = (self.low + self.high) / 2
@@ -86,25 +93,27 @@ class RealRoot:
         else:
             self.high = middle
 
-    def refine_to(self, width):
+    def refine_to(self, width: Fraction) -> None:
+        """Halve the interval until it is not wider."""
         while self.high - self.low > width:
             self.refine()
 
-    def same(self, other):
+    def same(self, other: RealRoot) -> bool:
+        """Return True if it is the same number."""
         return (self.factor, self.index) == (other.factor, other.index)
 
 
-def _sympy_poly(f):
+def _sympy_poly(f: Coefficients) -> sympy.Poly:
     return sympy.Poly([int(c) for c in reversed(f)], T)
 
 
-def real_roots(f) -> list[RealRoot]:
-    """The distinct real roots of f in increasing order, with their multiplicities."""
+def real_roots(f: Coefficients) -> list[RealRoot]:
+    """Return the distinct real roots of f in increasing order, with their multiplicities."""
     return [RealRoot(*root) for root in _real_roots(tuple(int(c) for c in f))]
 
 
 @cache
-def _real_roots(f):
+def _real_roots(f: tuple[int, ...]) -> list[tuple[tuple[int, ...], int, Fraction, Fraction, int]]:
     found = []
     for factor, multiplicity in flint.fmpz_poly(list(f)).factor()[1]:
         coefficients = tuple(int(c) for c in factor.coeffs())
@@ -122,7 +131,7 @@ def _real_roots(f):
 
 
 def compare(a: RealRoot, b: RealRoot) -> int:
-    """-1, 0 or 1 as a is smaller than, equal to, or larger than b."""
+    """Return -1, 0 or 1 as a is smaller than, equal to, or larger than b."""
     if a.same(b):
         return 0
     while True:
@@ -143,7 +152,7 @@ def separate(a: RealRoot, b: RealRoot) -> None:
 
 
 def compare_with_rational(a: RealRoot, q: Fraction) -> int:
-    """-1, 0 or 1 as a is smaller than, equal to, or larger than q."""
+    """Return -1, 0 or 1 as a is smaller than, equal to, or larger than q."""
     if a.is_rational:
         return _sign(a.low - q)
     while a.low < q < a.high:
@@ -151,8 +160,8 @@ def compare_with_rational(a: RealRoot, q: Fraction) -> int:
     return 1 if q <= a.low else -1
 
 
-def sign_at_root(g, a: RealRoot) -> int:
-    """The sign of g at a: 0 if the irreducible polynomial of a divides g."""
+def sign_at_root(g: Coefficients, a: RealRoot) -> int:
+    """Return the sign of g at a: 0 if the irreducible polynomial of a divides g."""
     if not any(g):
         return 0
     if not divmod(flint.fmpq_poly([int(c) for c in g]), flint.fmpq_poly(list(a.factor)))[1]:
@@ -165,8 +174,8 @@ def sign_at_root(g, a: RealRoot) -> int:
     return _sign(value(g, a.high))
 
 
-def sign_just_after(g, a: RealRoot) -> int:
-    """The sign of g on (a, a + epsilon): between a and the next root of g."""
+def sign_just_after(g: Coefficients, a: RealRoot) -> int:
+    """Return the sign of g on (a, a + epsilon): between a and the next root of g."""
     later = [r for r in real_roots(g) if compare(a, r) < 0]
     if later:
         nearest = later[0]
@@ -175,12 +184,12 @@ def sign_just_after(g, a: RealRoot) -> int:
     return _sign(g[-1])
 
 
-def _rational(q):
+def _rational(q: Fraction) -> sympy.Rational:
     return sympy.Rational(q.numerator, q.denominator)
 
 
-def is_root(polynomial, low, high, a: RealRoot) -> bool:
-    """Whether a is the only root of ``polynomial`` in [low, high]."""
+def is_root(polynomial: Coefficients, low: Ratio, high: Ratio, a: RealRoot) -> bool:
+    """Return True if a is the only root of ``polynomial`` in [low, high]."""
     low, high = exact(low), exact(high)
     return (
         sign_at_root(polynomial, a) == 0
@@ -191,7 +200,7 @@ def is_root(polynomial, low, high, a: RealRoot) -> bool:
 
 
 def nearest_double(a: RealRoot) -> float:
-    """The nearest double: Python rounds a quotient of integers correctly."""
+    """Return the nearest double: Python rounds a quotient of integers correctly."""
     if a.is_rational:
         return _round(a.low)
     # Irrational, so no tie: both ends round to the same double in the end.
@@ -200,7 +209,7 @@ def nearest_double(a: RealRoot) -> float:
     return _round(a.low)
 
 
-def _round(q):
+def _round(q: Fraction) -> float:
     try:
         return q.numerator / q.denominator
     except OverflowError:
@@ -208,7 +217,7 @@ def _round(q):
 
 
 def is_nearest_double(x: float, q: Fraction) -> bool:
-    """Whether no neighbour of x is nearer to q, and x is even if one is as near."""
+    """Return True if no neighbour of x is nearer to q, and x is even if one is as near."""
     if math.isinf(x):
         limit = Fraction(2) ** 1024 - Fraction(2) ** 970
         return q >= limit if x > 0 else q <= -limit
@@ -221,77 +230,6 @@ def is_nearest_double(x: float, q: Fraction) -> bool:
     return True
 
 
-def _is_odd(x):
+def _is_odd(x: float) -> bool:
     unit = Fraction(math.ulp(x))
     return (Fraction(x) / unit).numerator % 2 == 1
-
-
-# Scenes: the contract's formulas, read straight from the JSON data.
-
-Json = dict[str, Any]
-
-
-def motion_at(motion: Json | None, x: Fraction, y: Fraction, t: Fraction):
-    """Where a motion of the contract carries the point (x, y) at time t."""
-    if motion is None:
-        return x, y
-    if "pieces" in motion:
-        for piece in motion["pieces"]:
-            if "until" not in piece or t <= Fraction(str(piece["until"])):
-                return motion_at(piece["motion"], x, y, t)
-    if "rigid" in motion:
-        rigid = motion["rigid"]
-        px, py = (Fraction(str(c)) for c in rigid.get("pivot", ["0", "0"]))
-        h = _at(rigid["half_turn"], t)
-        cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
-        c, s = (Fraction(str(part)) for part in rigid.get("orientation", ["1", "0"]))
-        dx, dy = c * (x - px) - s * (y - py), s * (x - px) + c * (y - py)
-        return (
-            px + cosine * dx - sine * dy + _at(rigid.get("x", []), t),
-            py + sine * dx + cosine * dy + _at(rigid.get("y", []), t),
-        )
-    if "affine" in motion:
-        affine = motion["affine"]
-        (a, b), (c, d) = affine["matrix"]
-        return (
-            _at(a, t) * x + _at(b, t) * y + _at(affine.get("x", []), t),
-            _at(c, t) * x + _at(d, t) * y + _at(affine.get("y", []), t),
-        )
-    return x + _at(motion.get("x", []), t), y + _at(motion.get("y", []), t)
-
-
-def _at(coefficients, t):
-    return sum((Fraction(str(c)) * t**i for i, c in enumerate(coefficients)), Fraction(0))
-
-
-def body_at(body: Json, t: Fraction) -> list[tuple[Fraction, Fraction]]:
-    """The vertices of a body of the contract at time t."""
-    return [motion_at(body.get("motion"), x, y, t) for x, y in _shape_at(body, t)]
-
-
-def _shape_at(body, t):
-    if "keyframes" in body:
-        frames = [
-            (
-                Fraction(str(f["t"])),
-                [(Fraction(str(x)), Fraction(str(y))) for x, y in f["vertices"]],
-            )
-            for f in body["keyframes"]
-        ]
-        before = [f for f in frames if f[0] <= t]
-        after = [f for f in frames if f[0] > t]
-        if not before:
-            return after[0][1]
-        if not after:
-            return before[-1][1]
-        (t0, p), (t1, q) = before[-1], after[0]
-        s = (t - t0) / (t1 - t0)
-        return [
-            ((1 - s) * a + s * c, (1 - s) * b + s * d) for (a, b), (c, d) in zip(p, q, strict=True)
-        ]
-    return [
-        (_at(v.get("x", []), t), _at(v.get("y", []), t))
-        if isinstance(v, dict)
-        else (Fraction(str(v[0])), Fraction(str(v[1])))
-        for v in body["vertices"]
-    ]

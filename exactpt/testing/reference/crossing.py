@@ -12,20 +12,37 @@ if the two bits are on different sides.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import count, pairwise, product
 from typing import TypeAlias
 
-from exactpt.kernel.numbers import QQ
+from exactpt.geometry.predicates import Point, crossing_of_lines, orientation
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.testing.reference.shapes import (
+    is_on_segment,
+    segments_cross,
+    squared_distance,
+    squared_to_interior,
+)
 
 __all__ = ["chains_cross"]
 
-Point: TypeAlias = tuple[QQ, QQ]
 Path: TypeAlias = Sequence[Point]
+Given: TypeAlias = "tuple[Rational, Rational]"
 
 
-def chains_cross(p: Path, q: Path) -> bool:
-    """Return True if two simple chains cross."""
-    u, v = _refined(p, q), _refined(q, p)
+def chains_cross(p: Sequence[Given], q: Sequence[Given]) -> bool:
+    """Return True if two simple chains cross.
+
+    >>> chains_cross([(0, 0), (2, 2)], [(0, 2), (2, 0)]), chains_cross([(0, 0), (2, 2)], [(0, 0)])
+    (True, False)
+
+    Args:
+        p: the vertices of one; of a point, one.
+        q: those of the other.
+    """
+    first, second = ([(rational(x), rational(y)) for x, y in chain] for chain in (p, q))
+    u, v = _refined(first, second), _refined(second, first)
     return any(_crossings(a, b) % 2 for a, b in _pieces(u, v))
 
 
@@ -33,13 +50,10 @@ def _refined(p: Path, q: Path) -> list[Point]:
     """Return a chain with the points at which edges of another one end on it or cross it."""
     found = [p[0]]
     for a, b in pairwise(p):
-        cuts = {b, *(c for c in q if _is_on(c, a, b))}
-        for c, d in pairwise(q):
-            sides = [_side(a, b, c), _side(a, b, d), _side(c, d, a), _side(c, d, b)]
-            if sides[0] * sides[1] < 0 and sides[2] * sides[3] < 0:
-                part = sides[0] / (sides[0] - sides[1])
-                cuts.add((c[0] + part * (d[0] - c[0]), c[1] + part * (d[1] - c[1])))
-        found += sorted(cuts - {a}, key=lambda c: abs(c[0] - a[0]) + abs(c[1] - a[1]))
+        cuts = {b, *(c for c in q if is_on_segment(c, a, b))}
+        crossed = [(c, d) for c, d in pairwise(q) if segments_cross(a, b, c, d)]
+        cuts |= {crossing_of_lines(a, b, c, d) for c, d in crossed}
+        found += sorted(cuts - {a}, key=partial(squared_distance, a))
     return found
 
 
@@ -49,13 +63,17 @@ def _pieces(u: Path, v: Path) -> Iterator[tuple[Path, Path]]:
     while i < len(u):
         j = i
         if u[i] in v:
-            while j + 1 < len(u) and any(_is_on(_middle(u[j], u[j + 1]), *e) for e in pairwise(v)):
+            while j + 1 < len(u) and _is_on_path(_middle(u[j], u[j + 1]), v):
                 j += 1
             numbers = [k for k, at in enumerate(v) if at in u[i : j + 1]]
             first, last = min(numbers), max(numbers)
             if i > 0 and first > 0 and j + 1 < len(u) and last + 1 < len(v):
                 yield _around(u, i, j), _around(v, first, last)
         i = j + 1
+
+
+def _is_on_path(v: Point, path: Path) -> bool:
+    return any(is_on_segment(v, a, b) for a, b in pairwise(path))
 
 
 def _around(u: Path, i: int, j: int) -> Path:
@@ -76,7 +94,7 @@ def _crossings(p: Path, q: Path) -> int:
     for k in count(2):
         moved = [(x + step / k, y + step / (k * k + 1)) for x, y in q]
         sides = [
-            (_side(a, b, c), _side(a, b, d), _side(c, d, a), _side(c, d, b))
+            (orientation(a, b, c), orientation(a, b, d), orientation(c, d, a), orientation(c, d, b))
             for (a, b), (c, d) in product(pairwise(p), pairwise(moved))
         ]
         if all(map(all, sides)):
@@ -86,14 +104,7 @@ def _crossings(p: Path, q: Path) -> int:
 
 def _squared(v: Point, a: Point, b: Point) -> QQ:
     """Return the squared distance of a point from a segment."""
-    x, y, u, w = b[0] - a[0], b[1] - a[1], v[0] - a[0], v[1] - a[1]
-    along = min(max((x * u + y * w) / (x * x + y * y), QQ(0)), QQ(1))
-    return (u - along * x) ** 2 + (w - along * y) ** 2
-
-
-def _is_on(v: Point, a: Point, b: Point) -> bool:
-    return _side(a, b, v) == 0 and min(a, b) <= v <= max(a, b)
-
-
-def _side(a: Point, b: Point, c: Point) -> QQ:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    to_interior = squared_to_interior(v, a, b)
+    if to_interior is not None:
+        return to_interior
+    return min(squared_distance(v, a), squared_distance(v, b))
