@@ -34,9 +34,14 @@ def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:
         refuse_unless(start < scene.exact_end)
         contact = exactpt.first_contact(scene, since=fraction(start))
     elif kind == "ignoring":
-        group = random.sample(names, random.randint(1, len(names)))
-        chosen = every - {frozenset(pair) for pair in combinations(group, 2)}
-        contact = exactpt.first_contact(scene, ignoring=[group])
+        groups = [
+            random.sample(names, random.randint(2, len(names)))
+            for _ in range(random.randint(1, 3))  # they may overlap
+        ]
+        chosen = every - {frozenset(pair) for group in groups for pair in combinations(group, 2)}
+        of_scene = random.randint(0, len(groups))
+        grouped = Scene(scene.bodies, scene.time, ignoring=groups[:of_scene])
+        contact = exactpt.first_contact(grouped, ignoring=groups[of_scene:])
     elif kind == "between":
         chosen = set(random.sample(sorted(every, key=sorted), random.randint(1, len(every))))
         contact = exactpt.first_contact(scene, between=[sorted(pair) for pair in chosen])
