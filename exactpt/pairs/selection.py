@@ -227,8 +227,8 @@ def refuse_ignored_pair(scene: Scene, a: str, b: str) -> None:
     names = names_of(scene.bodies)
     if Selection(scene).ignores(names.index(a), names.index(b)):
         raise InputError(
-            f"bodies {shorten(a)} and {shorten(b)} ignore each other in this scene; "
-            "Scene(scene.bodies, scene.time) has no groups"
+            f"bodies {shorten(a)} and {shorten(b)} ignore each other in this scene; take one of "
+            "them out of the group that has both"
         )
 
 

@@ -37,14 +37,12 @@ def groups_given(ignoring: Iterable[Iterable[str]]) -> Groups:
         InputError: if they are not groups of texts.
     """
     if isinstance(ignoring, str) or not isinstance(ignoring, Iterable):
-        raise InputError(f"ignoring: groups of names are needed, not the text {shorten(ignoring)}")
+        raise InputError(f"ignoring: groups of names are needed, got {shorten(ignoring)}")
     return tuple(_group_given(group, f"ignoring[{k}]") for k, group in enumerate(ignoring))
 
 
 def _group_given(group: Iterable[str], where: str) -> tuple[str, ...]:
-    if isinstance(group, str):
-        raise InputError(f"{where}: a group of names is needed, not the text {shorten(group)}")
-    if not isinstance(group, Iterable):
+    if isinstance(group, str) or not isinstance(group, Iterable):
         raise InputError(f"{where}: a group of names is needed, got {shorten(group)}")
     texts = tuple(group)
     for text in texts:
