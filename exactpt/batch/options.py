@@ -15,6 +15,8 @@ from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.pairs.approach import first_within
 from exactpt.pairs.intervals import contacts
+from exactpt.pairs.selection import pairs_given
+from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene
 
 NOTHING: Final = Scene([])
@@ -39,7 +41,7 @@ class Options:
         max_bytes: maximum size of a scene in bytes.
 
     Raises:
-        InputError: if options exclude each other.
+        InputError: if options exclude each other, or groups and pairs are not names.
     """
 
     every: bool = False
@@ -63,6 +65,10 @@ class Options:
         for value in (self.distance, self.until, self.since):
             if value is not None:
                 rational(value)
+        # The names are read once: an iterator would be empty for the second scene.
+        object.__setattr__(self, "ignoring", groups_given(self.ignoring))
+        if self.between is not None:
+            object.__setattr__(self, "between", pairs_given(self.between))
         if self.every and self.distance is not None:
             raise InputError("expected either every=True or a distance, not both")
         plain = self._first_only() == Options._defaults()

@@ -232,13 +232,25 @@ def refuse_ignored_pair(scene: Scene, a: str, b: str) -> None:
         )
 
 
+def pairs_given(between: Iterable[Sequence[str]]) -> tuple[tuple[str, str], ...]:
+    """Return the pairs of names of a caller, which are not looked up yet.
+
+    Raises:
+        InputError: if one is not a pair of two names.
+    """
+    pairs = []
+    for names in between:
+        if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
+            raise InputError(f"between: not the names of two bodies: {shorten(names)}")
+        pairs.append((names[0], names[1]))
+    return tuple(pairs)
+
+
 def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
     """Return pairs of names as pairs i < j of body numbers, each once, sorted."""
     number = {name: i for i, name in enumerate(names_of(scene.bodies))}
     pairs: set[tuple[int, int]] = set()
-    for names in between:
-        if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
-            raise InputError(f"between: not the names of two bodies: {shorten(names)}")
+    for names in pairs_given(between):
         for name in names:
             if name not in number:
                 raise InputError(f"between: there is no body {shorten(name)}")

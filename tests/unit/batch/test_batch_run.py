@@ -688,3 +688,19 @@ def test_bug_a_silent_scheduler_is_named_within_five_seconds(scenes, tmp_path):
             run(scenes, tmp_path / "answers.jsonl", scheduler=address)
         assert time.monotonic() - began < 10
     assert not list(tmp_path.glob("answers.jsonl*"))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"ignoring": "ab"}, {"ignoring": ["ab"]}, {"between": "ab"}, {"between": [("a", "a")]}],
+)
+def test_options_that_are_no_names_are_refused_before_any_scene(wrong):
+    with pytest.raises(InputError, match=next(iter(wrong))):
+        Options(**wrong)
+
+
+def test_options_of_iterators_hold_for_every_scene():
+    options = Options(ignoring=(pair for pair in [["a", "b"]]), between=iter([["b", "c"]]))
+
+    assert (options.ignoring, options.between) == ((("a", "b"),), (("b", "c"),))
+    assert options.to_json()["between"] == (("b", "c"),)
