@@ -13,7 +13,7 @@ no pivot is given one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
@@ -59,17 +59,21 @@ class StatedErrors(NamedTuple):
         """The errors, without the reference point."""
         return self.place, self.angle, *self.shape
 
-    def given(self) -> dict[str, object]:
-        """Return the arguments of `Body` that state these errors, as texts."""
+    def given(self, write: Callable[[QQ], str] = str) -> dict[str, object]:
+        """Return the arguments of `Body` that state these errors; files have the same keys.
+
+        Args:
+            write: returns a number as a text.
+        """
         options: dict[str, object] = {}
         if self.place:
-            options["place_error"] = str(self.place)
+            options["place_error"] = write(self.place)
         if self.angle:
-            options["angle_error"] = str(self.angle)
+            options["angle_error"] = write(self.angle)
         if any(self.shape):
-            options["shape_error"] = tuple(map(str, self.shape))
+            options["shape_error"] = [write(error) for error in self.shape]
         if self.pivot is not None:
-            options["pivot"] = tuple(map(str, self.pivot))
+            options["pivot"] = [write(coordinate) for coordinate in self.pivot]
         return options
 
     def with_motion(self, before: Motion, after: Motion) -> StatedErrors:

@@ -94,7 +94,7 @@ def _body_to_json(body: Body) -> dict[str, object]:
         data["closed"] = False
     if body.exact_radius:
         data["radius"] = _text(body.exact_radius)
-    data |= _errors_to_json(body)
+    data |= body.exact_errors.given(_text)
     if body.exact_shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
@@ -108,20 +108,6 @@ def _body_to_json(body: Body) -> dict[str, object]:
         data["motion"] = _motion_to_json(body.motion)
     if body.properties:
         data["properties"] = json_properties(body)
-    return data
-
-
-def _errors_to_json(body: Body) -> dict[str, object]:
-    stated = body.exact_errors
-    data: dict[str, object] = {}
-    if stated.place:
-        data["place_error"] = _text(stated.place)
-    if stated.angle:
-        data["angle_error"] = _text(stated.angle)
-    if any(stated.shape):
-        data["shape_error"] = [_text(error) for error in stated.shape]
-    if stated.pivot is not None:
-        data["pivot"] = [_text(c) for c in stated.pivot]
     return data
 
 
