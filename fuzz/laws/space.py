@@ -7,14 +7,14 @@ from random import Random
 from typing import Final
 
 import exactpt
-from exactpt import FreeSpace, Scene, Simulation, UnreachableError
+from exactpt import FreeSpace, Scene, Simulation
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.testing.reference import space as definition
-from exactpt.testing.reference.paths import Length, length_of, shortest_length
+from exactpt.testing.reference.paths import shortest_length
 from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.tilings import a_tiling
-from fuzz.questions.free_space import some_point
+from fuzz.questions.free_space import is_inside, path_length, some_point
 from fuzz.witnesses import Difference
 
 __all__ = ["a_space", "paths_are_shortest", "places_are_as_defined"]
@@ -74,11 +74,11 @@ def paths_are_shortest(scene: Scene, random: Random) -> str:
     outcome = "no path"
     for _ in range(PATHS):
         p, q = some_point(random, bodies), some_point(random, bodies)
-        if _is_inside(p, bodies) or _is_inside(q, bodies):
+        if is_inside(p, bodies) or is_inside(q, bodies):
             continue
         expected = shortest_length(bodies, p, q)
         for start, goal in ((p, q), (q, p)):
-            found = _length(space, start, goal)
+            found = path_length(space, start, goal)
             is_right = found is None and expected is None
             if found is not None and expected is not None:
                 is_right = found.may_be(expected)
@@ -86,16 +86,3 @@ def paths_are_shortest(scene: Scene, random: Random) -> str:
                 raise Difference("path", f"from {start} to {goal}: {found}, not {expected}")
         outcome = "unreachable" if expected is None else "a path"
     return outcome
-
-
-def _length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
-    try:
-        return length_of(space.shortest_path(start, goal).points)
-    except UnreachableError:
-        return None
-
-
-def _is_inside(point: Point, bodies: Places) -> bool:
-    """Return True if a point is in the interior of a body."""
-    owner = definition.owner(point, bodies)
-    return owner is not None and owner[1:] == (None, None)

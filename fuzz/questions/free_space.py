@@ -17,7 +17,7 @@ from fuzz.questions.scenes import crowded_scene
 from fuzz.questions.tiny import touching_scene
 from fuzz.witnesses import tilings_of
 
-__all__ = ["some_point", "wrong_path", "wrong_place"]
+__all__ = ["is_inside", "path_length", "some_point", "wrong_path", "wrong_place"]
 
 FAMILIES: Final = ("convex", "stars", "combs", "letters", "chains", "chains_on_grid", "small_grid",
                    "bodies_on_grid", "linear_points", "points_in_line", "frames")  # fmt: skip
@@ -69,11 +69,11 @@ def wrong_path(random: Random) -> tuple[Scene, str, str | None]:
     bodies = definition.points_of(scene, space.at)
     for _ in range(PATHS):
         p, q = some_point(random, bodies), some_point(random, bodies)
-        if any(_is_inside(point, bodies) for point in (p, q)):
+        if any(is_inside(point, bodies) for point in (p, q)):
             continue
         expected = shortest_length(bodies, p, q)
         for start, goal in ((p, q), (q, p)):
-            found = _length(space, start, goal)
+            found = path_length(space, start, goal)
             if (found is None) != (expected is None):
                 return scene, tiling, f"from {start} to {goal}: {found}, not {expected}"
             if found is not None and expected is not None and not found.may_be(expected):
@@ -81,14 +81,16 @@ def wrong_path(random: Random) -> tuple[Scene, str, str | None]:
     return scene, tiling, None
 
 
-def _length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
+def path_length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
+    """Return the length of the shortest path; None if there is no path."""
     try:
         return length_of(space.shortest_path(start, goal).points)
     except UnreachableError:
         return None
 
 
-def _is_inside(point: Point, bodies: Places) -> bool:
+def is_inside(point: Point, bodies: Places) -> bool:
+    """Return True if a point is in the interior of a body."""
     owner = definition.owner(point, bodies)
     return owner is not None and owner[1:] == (None, None)
 
