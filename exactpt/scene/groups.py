@@ -146,4 +146,7 @@ def refuse_groups(scene: Scene, why: str) -> None:
         InputError: if the scene has groups.
     """
     if scene.ignoring:
-        raise InputError(f'bodies of this scene ignore each other ("ignoring"): {why}')
+        group = shorten(list(scene.ignoring[0]))
+        raise InputError(
+            f'bodies of this scene ignore each other ("ignoring"), such as those of {group}: {why}'
+        )
