@@ -384,8 +384,10 @@ def first_meeting(scene: Scene) -> tuple[AlgebraicNumber, set[frozenset[str]]] |
     """
     found: list[tuple[AlgebraicNumber, frozenset[str]]] = []
     for a, b in combinations(scene.bodies, 2):
-        found += [(since, frozenset({a.name, b.name})) for since, _ in
-                  contact_intervals(a, b, scene.time)[:1]]  # fmt: skip
+        intervals = contact_intervals(a, b, scene.time)
+        if intervals:
+            since, _ = intervals[0]
+            found.append((since, frozenset({a.name, b.name})))
     for body in scene.bodies:
         if _can_touch_itself(scene, body):
             own = first_self_meeting(body, scene.exact_start, scene.exact_end)

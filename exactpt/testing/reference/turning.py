@@ -52,9 +52,11 @@ def _terms(x: QQ) -> Iterator[tuple[int, QQ]]:
 
 
 def turned(
-    points: Sequence[tuple[Rational, Rational]], pivot: tuple[Rational, Rational], angle: Rational,
+    points: Sequence[tuple[Rational, Rational]],
+    pivot: tuple[Rational, Rational],
+    angle: Rational,
     bits: int,
-) -> list[Point]:  # fmt: skip
+) -> list[Point]:
     """Return points after a turn about a pivot, each coordinate to within 2^-bits.
 
     >>> turned([(3, 1)], pivot=(2, 1), angle=0, bits=64)

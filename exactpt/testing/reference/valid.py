@@ -64,8 +64,8 @@ class _Cell(NamedTuple):
     def corners(self) -> list[Point]:
         """The corners, each once."""
         (a, d), (b, c) = self.side(self.left), self.side(self.right)
-        return list(dict.fromkeys([(self.left, a), (self.right, b), (self.right, c),
-                                   (self.left, d)]))  # fmt: skip
+        around = [(self.left, a), (self.right, b), (self.right, c), (self.left, d)]
+        return list(dict.fromkeys(around))
 
     def owner(self) -> int | None:
         """Return the part of which it is inside; None if it is outside of all, or none can be."""
