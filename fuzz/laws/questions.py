@@ -19,6 +19,7 @@ from typing import Any, Final, TypeAlias
 import exactpt
 from exactpt import (
     AlgebraicNumber,
+    Body,
     BudgetExceeded,
     Contact,
     ContactInterval,
@@ -33,7 +34,7 @@ from fuzz.laws.law import refuse_unless
 from fuzz.witnesses import LeftOutError, tilings_of
 
 __all__ = ["QUESTIONS", "Answer", "Question", "a_time", "contact_kind", "contact_value",
-           "two_names"]  # fmt: skip
+           "defined_intervals", "two_names"]  # fmt: skip
 
 Answer: TypeAlias = Any
 """A plain value: numbers, texts, tuples, sets of these."""
@@ -216,14 +217,20 @@ def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
     )
 
 
-def _defined_intervals(scene: Scene, _: Asked) -> Answer:
+def defined_intervals(
+    scene: Scene, a: Body, b: Body
+) -> list[tuple[AlgebraicNumber, AlgebraicNumber]]:
+    """Return the intervals in which two bodies of a scene touch, by definition."""
+    reach = a.exact_radius + b.exact_radius
+    if reach:
+        return reference.intervals_within(a, b, scene.time, reach**2)
+    return reference.contact_intervals(a, b, scene.time)
+
+
+def _defined_contacts(scene: Scene, _: Asked) -> Answer:
     found = {}
     for a, b in combinations(scene.bodies, 2):
-        reach = a.exact_radius + b.exact_radius
-        if reach:
-            intervals = reference.intervals_within(a, b, scene.time, reach**2)
-        else:
-            intervals = reference.contact_intervals(a, b, scene.time)
+        intervals = defined_intervals(scene, a, b)
         if intervals:
             found[a.name, b.name] = intervals
     return found
@@ -240,7 +247,7 @@ CONTACTS: Final = Question(
         "contacts": lambda scene, _: _by_pair(exactpt.contacts(scene)),
         "of two": _intervals_of_two,
     },
-    define=_defined_intervals,
+    define=_defined_contacts,
     kind=_intervals_kind,
 )
 

@@ -9,6 +9,7 @@ from exactpt import Scene
 from exactpt.check import check_run
 from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.questions import defined_intervals
 from fuzz.laws.tilings import a_tiling
 from fuzz.old_engine.compare import compared
 from fuzz.old_engine.process import old_engine
@@ -24,11 +25,7 @@ def definitions_agree(scene: Scene, random: Random) -> str:  # noqa: ARG001
     refuse_unless(contact is None or contact.kind != "self")
     starts = []
     for a, b in combinations(scene.bodies, 2):
-        reach = a.exact_radius + b.exact_radius
-        if reach:
-            intervals = reference.intervals_within(a, b, scene.time, reach**2)
-        else:
-            intervals = reference.contact_intervals(a, b, scene.time)
+        intervals = defined_intervals(scene, a, b)
         starts += [interval[0] for interval in intervals[:1]]
     check_equal("time of the first contact", contact and contact.time, min(starts, default=None))
     return "no contact" if contact is None else contact.kind
