@@ -33,6 +33,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 from exactpt.motion.outline import pieces_of
+from exactpt.motion.stated_errors import NONE_STATED
 
 GRID = power_of_two(-20)
 """Default grid of velocities."""
@@ -139,7 +140,9 @@ def continued(body: Body, motion: Motion) -> Body:
     """
     assumed = body.exact_errors.plus_assumed_of(body.motion)
     errors = assumed.with_motion(body.motion, motion)
-    return body.with_errors().with_motion(motion).exact_with_errors(errors)
+    # Without errors first: they are about a pivot that the motion need not have.
+    plain = body.exact_with_errors(NONE_STATED)
+    return plain.with_motion(motion).exact_with_errors(errors)
 
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
