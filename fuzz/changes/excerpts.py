@@ -1,6 +1,6 @@
 """Sub-scenes: a few of the bodies of a scene, so that a campaign covers many more scenes.
 
-Failures involve few bodies (see the corpus), and a scene of a few bodies takes a hundredth of
+Failures involve few bodies (see tests/cases), and a scene of a few bodies takes a hundredth of
 the time of a whole one. Every `WHOLE`-th scene is taken as it is.
 """
 
