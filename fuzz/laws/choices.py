@@ -13,7 +13,6 @@ from exactpt.kernel.numbers import QQ, fraction
 from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time
-from fuzz.witnesses import LeftOutError
 
 __all__ = ["choices_are_each_pair_alone"]
 
@@ -32,7 +31,7 @@ def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:
     if kind == "since":
         start = a_time(scene, random)
         chosen = every
-        refuse_unless(start < scene.exact_end)
+        refuse_unless(start < scene.exact_end and _are_bodies(scene, start))
         contact = exactpt.first_contact(scene, since=fraction(start))
     elif kind == "ignoring":
         groups = [
@@ -59,6 +58,15 @@ def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:
     return f"{kind}, {'no contact' if expected is None else 'a contact'}"
 
 
+def _are_bodies(scene: Scene, start: QQ) -> bool:
+    """Return False if a body has touched itself before a later start, and is none any more."""
+    try:
+        Scene(scene.bodies, (fraction(start), scene.end))
+    except InputError:
+        return False
+    return True
+
+
 def _value(contact: Contact | None) -> Found:
     if contact is None:
         return None
@@ -72,10 +80,7 @@ def _first_of(scene: Scene, chosen: Collection[Pair], start: QQ) -> Found:
     for two in combinations(scene.bodies, 2):
         if frozenset(body.name for body in two) not in chosen:
             continue
-        try:
-            alone = Scene(two, (fraction(start), scene.end))
-        except InputError:
-            raise LeftOutError from None  # one has touched itself before, and is no body any more
+        alone = Scene(two, (fraction(start), scene.end))
         defined = reference.first_contact(alone)
         if defined is None:
             continue
