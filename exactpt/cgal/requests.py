@@ -6,7 +6,15 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final, TypedDict, cast
 
-from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Tile, Verdict, exactly
+from exactpt.cgal.claims import (
+    BodyShape,
+    IsolatedRoot,
+    PlacedBody,
+    RootClaim,
+    Tile,
+    Verdict,
+    exactly,
+)
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
 
@@ -81,17 +89,21 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
         if None in ring:
             missing = ring.index(None)
             raise _BadTileError(f"body {shorten(shape.name)}: vertex {missing} is not in the tile")
-        words = " ".join(map(str, reversed(ring) if shape.clockwise else ring))
-        if shape.parts:
-            yield f"parts {len(shape.parts)} {_part_words(shape.parts, ring)}"
-        elif shape.size < 3:
-            yield f"{'point' if shape.size == 1 else 'segment'} {words}"
-        elif not shape.closed:
-            yield f"chain {shape.size} {words}"
-        else:
-            yield f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
+        yield _shape_words(shape, ring)
     for (name, number), i in place.items():
         raise _BadTileError(f"vertex {i} is of no body: {shorten(name)}: {shorten(number)}")
+
+
+def _shape_words(shape: BodyShape, place: Sequence[int | None]) -> str:
+    """Return the kind of a body, and its vertices by their places."""
+    if shape.parts:
+        return f"parts {len(shape.parts)} {_part_words(shape.parts, place)}"
+    words = " ".join(map(str, reversed(place) if shape.clockwise else place))
+    if shape.size < 3:
+        return f"{'point' if shape.size == 1 else 'segment'} {words}"
+    if not shape.closed:
+        return f"chain {shape.size} {words}"
+    return f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
 
 
 def _part_words(parts: Sequence[Sequence[Sequence[int]]], place: Sequence[int | None]) -> str:
@@ -151,6 +163,25 @@ def point_words(point: Sequence[Rational]) -> str:
     """Return the exact coordinates of a point."""
     x, y = point
     return f"{_rational_words(rational(x))} {_rational_words(rational(y))}"
+
+
+def bodies_request(word: str, bodies: Sequence[PlacedBody]) -> str:
+    """Return the text of a request about bodies at one time.
+
+    Raises:
+        InputError: if a body has not as many points as its shape has vertices.
+    """
+    points: list[str] = []
+    shapes: list[str] = []
+    for shape, given in bodies:
+        if len(given) != shape.size:
+            name = shorten(shape.name)
+            raise InputError(f"body {name}: {shape.size} points are needed, got {len(given)}")
+        places = range(len(points), len(points) + shape.size)
+        points += map(point_words, given)
+        shapes.append(_shape_words(shape, places))
+    head = f"{word} vertices {len(points)} {' '.join(points)}"
+    return "\n".join([head, f"bodies {len(shapes)}", *shapes, "end\n"])
 
 
 def polynomial_words(f: Sequence[int]) -> str:
