@@ -16,7 +16,7 @@ from exactpt.pairs.clearance import ClearancePiece
 from exactpt.testing.reference.times import tracks_after
 from exactpt.testing.reference.within import is_within
 
-__all__ = ["compare"]
+__all__ = ["compare", "witness"]
 
 
 class _DifferError(Exception):
@@ -27,7 +27,7 @@ def compare(
     scene: Scene, gap: Clearance, squared: QQ, time: AlgebraicNumber | None
 ) -> tuple[int, str | None]:
     """How much CGAL has decided about a first approach and a minimum, and what differs."""
-    judge = _Judge(_program())
+    judge = _Judge(witness())
     try:
         judge.approach(scene, gap, squared, time)
         judge.minimum(gap)
@@ -37,7 +37,8 @@ def compare(
 
 
 @cache
-def _program() -> CgalCheck:
+def witness() -> CgalCheck:
+    """Return the running cgal_check of this process, which the first request starts."""
     return CgalCheck()
 
 
