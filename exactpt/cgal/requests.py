@@ -160,7 +160,13 @@ def _rational_words(value: QQ) -> str:
 
 
 def point_words(point: Sequence[Rational]) -> str:
-    """Return the exact coordinates of a point."""
+    """Return the exact coordinates of a point.
+
+    Raises:
+        InputError: if it has not two coordinates, or one is not a number.
+    """
+    if len(point) != 2:
+        raise InputError(f"a point must have two coordinates, got {shorten(point)}")
     x, y = point
     return f"{_rational_words(rational(x))} {_rational_words(rational(y))}"
 
@@ -169,19 +175,28 @@ def bodies_request(word: str, bodies: Sequence[PlacedBody]) -> str:
     """Return the text of a request about bodies at one time.
 
     Raises:
-        InputError: if a body has not as many points as its shape has vertices.
+        InputError: if a body has not as many points as its shape has vertices, or not all of these
+            are in its parts.
     """
     points: list[str] = []
     shapes: list[str] = []
     for shape, given in bodies:
-        if len(given) != shape.size:
-            name = shorten(shape.name)
-            raise InputError(f"body {name}: {shape.size} points are needed, got {len(given)}")
+        _check_placed(shape, len(given))
         places = range(len(points), len(points) + shape.size)
         points += map(point_words, given)
         shapes.append(_shape_words(shape, places))
     head = f"{word} vertices {len(points)} {' '.join(points)}"
     return "\n".join([head, f"bodies {len(shapes)}", *shapes, "end\n"])
+
+
+def _check_placed(shape: BodyShape, points: int) -> None:
+    where = f"body {shorten(shape.name)}"
+    if points != shape.size:
+        raise InputError(f"{where}: {shape.size} points are needed, got {points}")
+    numbers = [number for part in shape.parts for ring in part for number in ring]
+    if shape.parts and sorted(numbers) != list(range(shape.size)):
+        wanted = f"the parts must have each vertex from 0 to {shape.size - 1} once"
+        raise InputError(f"{where}: {wanted}, got {shorten(numbers)}")
 
 
 def polynomial_words(f: Sequence[int]) -> str:

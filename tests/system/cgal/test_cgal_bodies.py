@@ -145,11 +145,28 @@ def test_hole_that_is_not_simple_is_named(witness):
         witness.relate(bad, PlacedBody.of_body(UNIT, 0))
 
 
-def test_body_with_another_number_of_points_is_refused(witness):
-    bad = PlacedBody(BodyShape("bad", 3), [(0, 0), (1, 0)])
+@pytest.mark.parametrize(
+    ("shape", "points", "message"),
+    [
+        (BodyShape("bad", 3), [(0, 0), (1, 0)], "body 'bad': 3 points are needed, got 2"),
+        (BodyShape("bad", 1), [(0, 0, 0)], r"a point must have two coordinates, got \(0, 0, 0\)"),
+        (BodyShape("bad", 1), [(0, "1/0")], "denominator is zero"),
+        (BodyShape("bad", 1), [(0, float("nan"))], "nan"),
+        (
+            BodyShape("bad", 3, parts=[[[0, 1, -1]]]),
+            [(0, 0), (1, 0), (0, 1)],
+            r"body 'bad': the parts must have each vertex from 0 to 2 once, got \[0, 1, -1\]",
+        ),
+        (BodyShape("bad", 0), [], "cgal_check refuses the request"),
+    ],
+)
+def test_placed_body_that_is_wrong_is_refused(witness, shape, points, message):
+    bad = PlacedBody(shape, points)
 
-    with pytest.raises(InputError, match="body 'bad': 3 points are needed, got 2"):
+    with pytest.raises(InputError, match=message):
         witness.relate(bad, bad)
+    with pytest.raises(InputError, match=message):
+        witness.check_union([bad], bad)
 
 
 def united(witness, bodies, union):
