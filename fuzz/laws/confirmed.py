@@ -29,7 +29,7 @@ from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time, two_names
 from fuzz.laws.space import a_space
-from fuzz.questions.by_cgal import witness
+from fuzz.questions.by_cgal import DifferError, are_within, witness
 from fuzz.questions.free_space import some_point
 from fuzz.witnesses import Difference, LeftOutError
 
@@ -46,6 +46,9 @@ TIMES: Final = 2
 
 POINTS: Final = 4
 """Number of points, and of segments between them, in a case about the free space."""
+
+FEATURES: Final = 40
+"""Maximum product of the numbers of vertices of two bodies whose signs CGAL decides."""
 
 NEAR: Final = Fraction(1, 2**64)
 """A time next to a rational time of a contact is so far from it, in parts of the time span."""
@@ -111,7 +114,8 @@ def _after(scene: Scene, time: AlgebraicNumber) -> Fraction:
 def first_contact_is_confirmed(scene: Scene, random: Random) -> str:
     """By CGAL no bodies share a point before a first contact, those named at it, and none more.
 
-    At an irrational time it decides at rational times on both sides.
+    At an irrational time it decides at rational times on both sides, and the signs of polynomials
+    at that time: by these the named bodies share a point.
     """
     refuse_unless(len(scene.bodies) >= 2)
     contact = exactpt.first_contact(scene)
@@ -122,6 +126,8 @@ def first_contact_is_confirmed(scene: Scene, random: Random) -> str:
         is_rational = contact.time.canonical_interval()[0] == contact.time
         if is_rational:
             _check_at(scene, contact)
+        else:
+            _check_signs_at(scene, contact)
         followed = _check_after(scene, contact, random)
     except _NotSimpleError:
         refuse_unless(not scene.has_radius)  # one with a radius may touch itself before
@@ -158,6 +164,23 @@ def _check_at(scene: Scene, contact: Contact) -> None:
             relation = _relation_at(a, b, time)
             if relation.do_overlap or relation.squared != (a.radius + b.radius) ** 2:
                 raise Difference("overlap at the first contact", f"{a}, {b}: {relation}")
+
+
+def _check_signs_at(scene: Scene, contact: Contact) -> None:
+    """Check the pairs of a contact at an irrational time by the signs of polynomials there."""
+    for names in _named_pairs(contact):
+        if len(names) == 1:
+            continue  # a body that touches itself
+        a, b = map(scene.body, sorted(names))
+        if a.size * b.size > FEATURES:
+            continue
+        squared = (a.exact_radius + b.exact_radius) ** 2
+        try:
+            is_contact = are_within(a, b, squared, contact.time, scene.exact_start)
+        except DifferError as error:
+            raise Difference("sign by CGAL", str(error)) from None
+        if not is_contact:
+            raise Difference("no contact by signs", f"{a}, {b} at {contact.time!r}")
 
 
 def _check_incidence(scene: Scene, incidence: ContactPoint, time: Fraction) -> None:
