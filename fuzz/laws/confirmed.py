@@ -23,6 +23,7 @@ from exactpt import (
 )
 from exactpt.cgal import BodyShape, PlacedBody, Relation
 from exactpt.kernel.numbers import Rational, fraction
+from exactpt.testing import reference
 from exactpt.testing.agreement import plain
 from exactpt.testing.reference import Nearest, Place
 from exactpt.testing.reference.space import Places, Point
@@ -31,7 +32,7 @@ from fuzz.laws.questions import a_time, two_names
 from fuzz.laws.space import a_space
 from fuzz.questions.by_cgal import DifferError, are_within, witness
 from fuzz.questions.free_space import some_point
-from fuzz.witnesses import Difference, LeftOutError
+from fuzz.witnesses import Difference, LeftOutError, contact_by, tilings_of
 
 __all__ = [
     "contacts_are_confirmed",
@@ -118,7 +119,7 @@ def first_contact_is_confirmed(scene: Scene, random: Random) -> str:
     at that time: by these the named bodies share a point.
     """
     refuse_unless(len(scene.bodies) >= 2)
-    contact = exactpt.first_contact(scene)
+    contact = contact_by(scene, random.choice(["auto", "pairs", *tilings_of(scene)]))
     try:
         _check_nothing_before(scene, contact, random)
         if contact is None:
@@ -268,7 +269,10 @@ def _rational(time: AlgebraicNumber) -> Iterator[Fraction]:
 
 
 def distances_are_confirmed(scene: Scene, random: Random) -> str:
-    """Distances are those of CGAL, and so are the distances of all nearest features."""
+    """Distances are those of CGAL, and so are the distances of all nearest features.
+
+    Overlaps by definition are those of CGAL, too.
+    """
     first, second = two_names(scene, random)
     a, b = scene.body(first), scene.body(second)
     time = fraction(a_time(scene, random, 16))
@@ -283,6 +287,8 @@ def distances_are_confirmed(scene: Scene, random: Random) -> str:
     for p, q in found.features:
         pair = _relation(_placed_feature(a, p, time), _placed_feature(b, q, time))
         check_equal("distance of features", pair.squared, found.core_squared)
+    if a.has_interior and b.has_interior:
+        check_equal("overlap by definition", reference.overlap(a, b, time), relation.do_overlap)
     return "overlap" if relation.do_overlap else "touch" if relation.do_intersect else "apart"
 
 
