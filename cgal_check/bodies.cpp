@@ -1,3 +1,4 @@
+// By CGAL: what two bodies have in common at one instant, and unions.
 #include "bodies.hpp"
 
 #include <algorithm>

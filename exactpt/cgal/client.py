@@ -200,7 +200,8 @@ class CgalCheck:
             Relation(do_intersect=True, do_overlap=False, squared=Fraction(0, 1))
 
         Raises:
-            InputError: if a body has not as many points as vertices, or a ring is not simple.
+            InputError: if a body has not as many points as vertices or its parts have not each vertex
+                once, or if a ring is not simple.
         """
         answer = _claimed(self._ask(bodies_request("pair", [first, second])))
         said = dict(zip(answer[::2], answer[1::2], strict=True))
@@ -225,11 +226,12 @@ class CgalCheck:
                 print(witness.check_union([place(first, 0), place(second, 0)], place(both, 0)))
                 print(witness.check_union([place(first, 0)], place(both, 0)))
 
-            Verdict(ok=True, reason='', stats={'parts': 1, 'holes': 0})
+            Verdict(ok=True, reason='', stats={'holes': 0, 'parts': 1})
             Verdict(ok=False, reason='an area of 0 is missing, of 3 is too much', stats={})
 
         Raises:
-            InputError: if a body has not as many points as vertices.
+            InputError: if a body has not as many points as vertices, or its parts have not each vertex
+                once.
         """
         return _verdict(self._ask(bodies_request("union", [*bodies, union])))
 
