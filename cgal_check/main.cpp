@@ -12,6 +12,7 @@
 #include <CGAL/version.h>
 
 #include "algebra.hpp"
+#include "bodies.hpp"
 #include "proof/verify.hpp"
 #include "reader.hpp"
 #include "tiling.hpp"
@@ -97,6 +98,8 @@ const std::map<std::string, std::function<std::string(Reader&)>> replies{
     {"sign", reply_to_sign},
     {"hull", reply_to_hull},
     {"orientations", reply_to_orientations},
+    {"pair", reply_to_pair},
+    {"union", reply_to_union},
 };
 
 std::string reply(Reader& in) {

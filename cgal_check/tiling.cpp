@@ -84,13 +84,24 @@ Vertex read_vertex(Reader& in) {
   return {std::move(x), std::move(y)};
 }
 
-Tiling read_tiling(Reader& in, bool triangles) {
-  Tiling tiling{triangles, {}, {}, {}, {}};
+std::vector<Vertex> read_vertices(Reader& in) {
+  std::vector<Vertex> vertices;
   in.expect("vertices");
-  for (std::size_t n = in.count(); n > 0; --n) tiling.vertices.push_back(read_vertex(in));
-  const std::size_t size = tiling.vertices.size();
+  for (std::size_t n = in.count(); n > 0; --n) vertices.push_back(read_vertex(in));
+  return vertices;
+}
+
+std::vector<Body> read_bodies(Reader& in, std::size_t vertices) {
+  std::vector<Body> bodies;
   in.expect("bodies");
-  for (std::size_t n = in.count(); n > 0; --n) tiling.bodies.push_back(read_body(in, size));
+  for (std::size_t n = in.count(); n > 0; --n) bodies.push_back(read_body(in, vertices));
+  return bodies;
+}
+
+Tiling read_tiling(Reader& in, bool triangles) {
+  Tiling tiling{triangles, read_vertices(in), {}, {}, {}};
+  const std::size_t size = tiling.vertices.size();
+  tiling.bodies = read_bodies(in, size);
   in.expect("edges");
   for (std::size_t n = in.count(); n > 0; --n) tiling.edges.push_back(read_edge(in, size));
   if (!triangles) {

@@ -33,6 +33,9 @@ struct Vertex {
 
 Vertex read_vertex(Reader& in);
 
+// Reads the word "vertices", a count, and the coordinates.
+std::vector<Vertex> read_vertices(Reader& in);
+
 using Cycle = std::vector<int>;  // vertices in the order of a walk, each followed by the next
 
 struct Body {
@@ -47,6 +50,9 @@ struct Body {
     return kind == Kind::polygon || kind == Kind::ring || kind == Kind::parts;
   }
 };
+
+// Reads the word "bodies", a count, and the bodies: of so many vertices.
+std::vector<Body> read_bodies(Reader& in, std::size_t vertices);
 
 struct Edge {
   int u, v;

@@ -7,7 +7,16 @@ docs/format.md. Proofs are verified by a call of their own (`proofs`).
 """
 
 from exactpt.cgal.build import build_program
-from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
+from exactpt.cgal.claims import (
+    BodyShape,
+    IsolatedRoot,
+    PlacedBody,
+    Relation,
+    RootClaim,
+    Signs,
+    Tile,
+    Verdict,
+)
 from exactpt.cgal.client import CgalCheck, find_program
 from exactpt.cgal.proofs import ProofVerdict, check_proof, check_proofs
 
@@ -15,7 +24,9 @@ __all__ = [
     "BodyShape",
     "CgalCheck",
     "IsolatedRoot",
+    "PlacedBody",
     "ProofVerdict",
+    "Relation",
     "RootClaim",
     "Signs",
     "Tile",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import NamedTuple, TypeAlias, cast, final
 
 from exactpt.brief import record_in_brief
@@ -58,6 +59,52 @@ class BodyShape(NamedTuple):
             for part in body.parts
         ]
         return cls(body.name, body.size, parts=parts)
+
+
+class PlacedBody(NamedTuple):
+    """A body at one time.
+
+    A radius is not part of it: it is the core that is placed.
+
+    Attributes:
+        shape: its shape. The rings of a body may be numbered in either orientation.
+        points: the coordinates of all vertices, by number, exactly.
+    """
+
+    shape: BodyShape
+    points: Sequence[Sequence[Rational]]
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
+
+    @classmethod
+    def of_body(cls, body: Body, at: Rational) -> PlacedBody:
+        """Return a body at a rational time.
+
+        >>> from exactpt import Translation
+        >>> ball = Body("ball", [(0, 0), (1, 0)], Translation([0, 2]))
+        >>> [(int(x), int(y)) for x, y in PlacedBody.of_body(ball, 3).points]
+        [(6, 0), (7, 0)]
+        """
+        parts = body.parts if body.has_rings else ()
+        return cls(BodyShape(body.name, body.size, body.closed, parts=parts), body.at(at))
+
+
+class Relation(NamedTuple):
+    """What two bodies have in common at one time.
+
+    Attributes:
+        do_intersect: whether they share a point; bodies are closed sets.
+        do_overlap: whether their interiors share a point. A point or a chain has no interior.
+        squared: the square of their distance; 0 if they intersect.
+    """
+
+    do_intersect: bool
+    do_overlap: bool
+    squared: Fraction
+
+    def __repr__(self) -> str:
+        return record_in_brief(self)
 
 
 class IsolatedRoot(NamedTuple):

@@ -13,14 +13,30 @@ from pathlib import Path
 from typing import IO, Final, Self, final
 
 from exactpt.cgal.build import PACKAGES
-from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
-from exactpt.cgal.requests import point_words, polynomial_words, root_words, tiling_request
+from exactpt.cgal.claims import (
+    BodyShape,
+    IsolatedRoot,
+    PlacedBody,
+    Relation,
+    RootClaim,
+    Signs,
+    Tile,
+    Verdict,
+)
+from exactpt.cgal.requests import (
+    bodies_request,
+    point_words,
+    polynomial_words,
+    root_words,
+    tiling_request,
+)
 from exactpt.errors import AuditError, InputError
-from exactpt.kernel.numbers import Rational, rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational, shorten
 
 _VARIABLE: Final = "EXACTPT_CGAL_CHECK"
 _GREETING: Final = "exactpt-check 1"
 _ANSWERS: Final = {"ok", "bad", _GREETING.split(" ")[0]}
+_YES_OR_NO: Final = {"yes": True, "no": False}
 _SIGNS: Final = {"-": -1, "0": 0, "+": 1, "<": -1, "=": 0, ">": 1}
 
 # Number of requests sent ahead of the replies. A verdict has less than 1,024 bytes, so the
@@ -166,6 +182,58 @@ class CgalCheck:
         """Return the orientation of each triple: 1 left turn, 0 collinear, -1 right turn."""
         words = [" ".join(map(point_words, (a, b, c))) for a, b, c in triples]
         return _signs(self._ask(f"orientations {len(words)} {' '.join(words)} end\n"))
+
+    def relate(self, first: PlacedBody, second: PlacedBody) -> Relation:
+        """Return what two bodies have in common at one time, and how far apart they are.
+
+        A square of 2 by 2, and a point above it:
+
+            box = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
+            ball = Body("ball", [(1, 5)], Translation([], [0, -1]))
+            with CgalCheck() as witness:
+                for time in (0, 3, 4):
+                    print(witness.relate(PlacedBody.of_body(box, time),
+                                         PlacedBody.of_body(ball, time)))
+
+            Relation(do_intersect=False, do_overlap=False, squared=Fraction(9, 1))
+            Relation(do_intersect=True, do_overlap=False, squared=Fraction(0, 1))
+            Relation(do_intersect=True, do_overlap=False, squared=Fraction(0, 1))
+
+        Raises:
+            InputError: if a body has not as many points as vertices or its parts have not each vertex
+                once, or if a ring is not simple.
+        """
+        answer = _claimed(self._ask(bodies_request("pair", [first, second])))
+        said = dict(zip(answer[::2], answer[1::2], strict=True))
+        return Relation(
+            _YES_OR_NO[said["intersect"]],
+            _YES_OR_NO[said["overlap"]],
+            fraction(QQ(said["squared"])),
+        )
+
+    def check_union(self, bodies: Iterable[PlacedBody], union: PlacedBody) -> Verdict:
+        """Return True if the interior of a body is that of the union of some bodies.
+
+        Two interiors are equal if no area is in one of them alone. The figures are the numbers of
+        parts and holes that CGAL finds in the union; parts that touch each other in a point may
+        count as one.
+
+            first = Body("first", [(0, 0), (2, 0), (2, 2), (0, 2)])
+            second = Body("second", [(1, 1), (3, 1), (3, 3), (1, 3)])
+            both = exactpt.union([first, second], name="both")
+            place = PlacedBody.of_body
+            with CgalCheck() as witness:
+                print(witness.check_union([place(first, 0), place(second, 0)], place(both, 0)))
+                print(witness.check_union([place(first, 0)], place(both, 0)))
+
+            Verdict(ok=True, reason='', stats={'holes': 0, 'parts': 1})
+            Verdict(ok=False, reason='an area of 0 is missing, of 3 is too much', stats={})
+
+        Raises:
+            InputError: if a body has not as many points as vertices, or its parts have not each vertex
+                once.
+        """
+        return _verdict(self._ask(bodies_request("union", [*bodies, union])))
 
     def close(self) -> None:
         """End the program. Later requests start it again."""

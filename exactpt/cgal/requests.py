@@ -6,7 +6,15 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final, TypedDict, cast
 
-from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Tile, Verdict, exactly
+from exactpt.cgal.claims import (
+    BodyShape,
+    IsolatedRoot,
+    PlacedBody,
+    RootClaim,
+    Tile,
+    Verdict,
+    exactly,
+)
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
 
@@ -81,17 +89,21 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
         if None in ring:
             missing = ring.index(None)
             raise _BadTileError(f"body {shorten(shape.name)}: vertex {missing} is not in the tile")
-        words = " ".join(map(str, reversed(ring) if shape.clockwise else ring))
-        if shape.parts:
-            yield f"parts {len(shape.parts)} {_part_words(shape.parts, ring)}"
-        elif shape.size < 3:
-            yield f"{'point' if shape.size == 1 else 'segment'} {words}"
-        elif not shape.closed:
-            yield f"chain {shape.size} {words}"
-        else:
-            yield f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
+        yield _shape_words(shape, ring)
     for (name, number), i in place.items():
         raise _BadTileError(f"vertex {i} is of no body: {shorten(name)}: {shorten(number)}")
+
+
+def _shape_words(shape: BodyShape, place: Sequence[int | None]) -> str:
+    """Return the kind of a body, and its vertices by their places."""
+    if shape.parts:
+        return f"parts {len(shape.parts)} {_part_words(shape.parts, place)}"
+    words = " ".join(map(str, reversed(place) if shape.clockwise else place))
+    if shape.size < 3:
+        return f"{'point' if shape.size == 1 else 'segment'} {words}"
+    if not shape.closed:
+        return f"chain {shape.size} {words}"
+    return f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
 
 
 def _part_words(parts: Sequence[Sequence[Sequence[int]]], place: Sequence[int | None]) -> str:
@@ -148,9 +160,43 @@ def _rational_words(value: QQ) -> str:
 
 
 def point_words(point: Sequence[Rational]) -> str:
-    """Return the exact coordinates of a point."""
+    """Return the exact coordinates of a point.
+
+    Raises:
+        InputError: if it has not two coordinates, or one is not a number.
+    """
+    if len(point) != 2:
+        raise InputError(f"a point must have two coordinates, got {shorten(point)}")
     x, y = point
     return f"{_rational_words(rational(x))} {_rational_words(rational(y))}"
+
+
+def bodies_request(word: str, bodies: Sequence[PlacedBody]) -> str:
+    """Return the text of a request about bodies at one time.
+
+    Raises:
+        InputError: if a body has not as many points as its shape has vertices, or not all of these
+            are in its parts.
+    """
+    points: list[str] = []
+    shapes: list[str] = []
+    for shape, given in bodies:
+        _check_placed(shape, len(given))
+        places = range(len(points), len(points) + shape.size)
+        points += map(point_words, given)
+        shapes.append(_shape_words(shape, places))
+    head = f"{word} vertices {len(points)} {' '.join(points)}"
+    return "\n".join([head, f"bodies {len(shapes)}", *shapes, "end\n"])
+
+
+def _check_placed(shape: BodyShape, points: int) -> None:
+    where = f"body {shorten(shape.name)}"
+    if points != shape.size:
+        raise InputError(f"{where}: {shape.size} points are needed, got {points}")
+    numbers = [number for part in shape.parts for ring in part for number in ring]
+    if shape.parts and sorted(numbers) != list(range(shape.size)):
+        wanted = f"the parts must have each vertex from 0 to {shape.size - 1} once"
+        raise InputError(f"{where}: {wanted}, got {shorten(numbers)}")
 
 
 def polynomial_words(f: Sequence[int]) -> str:

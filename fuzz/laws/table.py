@@ -6,6 +6,13 @@ from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree
 from fuzz.laws.choices import choices_are_each_pair_alone
+from fuzz.laws.confirmed import (
+    contacts_are_confirmed,
+    distances_are_confirmed,
+    first_contact_is_confirmed,
+    spaces_are_confirmed,
+    unions_are_confirmed,
+)
 from fuzz.laws.costs import (
     bystander_costs_nothing,
     later_end,
@@ -218,6 +225,38 @@ LAWS: Final[dict[str, Law]] = {
     "space queries/reference": Law(queries_in_space_are_as_defined, ("own",), share=0.5),
     "tiling/cgal": Law(
         cgal_accepts_runs, ("family", "scope", "tiny/fractions"), most=40, needs="cgal"
+    ),
+    "cgal/first contact": Law(
+        first_contact_is_confirmed,
+        (*TINY, *CLOSE, "tiny/rounded", *MOVING, "rings", "family"),
+        share=1.5,
+        most=40,
+        needs="cgal",
+    ),
+    "cgal/contacts": Law(
+        contacts_are_confirmed,
+        ("tiny/meeting", "tiny/rounded", *MOVING, "rings", "tiny/rings", "pair+nudged", "family"),
+        most=40,
+        needs="cgal",
+    ),
+    "cgal/distance": Law(
+        distances_are_confirmed,
+        ("tiny/distant", "tiny/rings", *MOVING, "rings", "pair+awkward+nudged", "family+awkward"),
+        most=60,
+        needs="cgal",
+    ),
+    "cgal/space": Law(
+        spaces_are_confirmed,
+        ("family", "family+awkward", "tiny/touching", "rings", "pair"),
+        most=40,
+        needs="cgal",
+    ),
+    "cgal/union": Law(
+        unions_are_confirmed,
+        ("rings", "tiny/rings", "family", "family+awkward"),
+        share=0.5,
+        most=60,
+        needs="cgal",
     ),
     "old engine/same": Law(
         old_engine_agrees,

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import final
 
-from exactpt import AlgebraicNumber, Clearance, Scene
+from exactpt import AlgebraicNumber, Body, Clearance, Scene
 from exactpt.cgal import CgalCheck
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, subtract
@@ -16,28 +16,48 @@ from exactpt.pairs.clearance import ClearancePiece
 from exactpt.testing.reference.times import tracks_after
 from exactpt.testing.reference.within import is_within
 
-__all__ = ["compare"]
+__all__ = ["DifferError", "are_within", "compare", "witness"]
 
 
-class _DifferError(Exception):
-    """CGAL decides otherwise."""
+class DifferError(Exception):
+    """CGAL decides otherwise than exactpt."""
 
 
 def compare(
     scene: Scene, gap: Clearance, squared: QQ, time: AlgebraicNumber | None
 ) -> tuple[int, str | None]:
     """How much CGAL has decided about a first approach and a minimum, and what differs."""
-    judge = _Judge(_program())
+    judge = _Judge(witness())
     try:
         judge.approach(scene, gap, squared, time)
         judge.minimum(gap)
-    except _DifferError as difference:
+    except DifferError as difference:
         return judge.decided, str(difference)
     return judge.decided, None
 
 
+def are_within(a: Body, b: Body, squared: QQ, time: AlgebraicNumber, start: QQ) -> bool:
+    """Return True if two bodies are within a distance at a time, by signs that CGAL decides.
+
+    Args:
+        a: a body.
+        b: another one.
+        squared: the square of the distance of their cores.
+        time: the time, which may be irrational.
+        start: the start of the scene.
+
+    Raises:
+        DifferError: if CGAL does not find that the time is the only root of its polynomial in its
+            interval, or a sign at it is another one by CGAL.
+    """
+    judge = _Judge(witness())
+    judge.root(time)
+    return judge.are_within(a, b, squared, time, start)
+
+
 @cache
-def _program() -> CgalCheck:
+def witness() -> CgalCheck:
+    """Return the running cgal_check of this process, which the first request starts."""
     return CgalCheck()
 
 
@@ -70,7 +90,7 @@ class _Judge:
         self.decided += 1
         found = self._program.sign_at_root(list(map(int, f)), time).at
         if found != time.sign_of(f):
-            raise _DifferError(f"the sign of {f} at {time!r} is {found}")
+            raise DifferError(f"the sign of {f} at {time!r} is {found}")
         return found
 
     def root(self, number: AlgebraicNumber) -> None:
@@ -78,7 +98,7 @@ class _Judge:
         self.decided += 1
         verdict = self._program.check_root(number.polynomial, number.low, number.high)
         if not verdict.ok:
-            raise _DifferError(f"{number!r}: {verdict.reason}")
+            raise DifferError(f"{number!r}: {verdict.reason}")
 
     def approach(
         self, scene: Scene, gap: Clearance, squared: QQ, time: AlgebraicNumber | None
@@ -87,13 +107,15 @@ class _Judge:
         at = gap.minimum.time if time is None else time
         self.root(at)
         a, b = scene.bodies
-        since = max(
-            [t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if t < at],
-            default=scene.exact_start,
-        )
-        p, q = tracks_after(a, b, max(since, scene.exact_start))
-        if is_within(_Instant(self, at), a, b, p, q, squared) != (time is not None):
-            raise _DifferError(f"within {squared} at {at!r}: not so by CGAL")
+        if self.are_within(a, b, squared, at, scene.exact_start) != (time is not None):
+            raise DifferError(f"within {squared} at {at!r}: not so by CGAL")
+
+    def are_within(self, a: Body, b: Body, squared: QQ, time: AlgebraicNumber, start: QQ) -> bool:
+        """Return True if two bodies are within a distance at a time."""
+        breakpoints = [t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if t < time]
+        since = max(breakpoints, default=start)
+        p, q = tracks_after(a, b, max(since, start))
+        return is_within(_Instant(self, time), a, b, p, q, squared)
 
     def minimum(self, gap: Clearance) -> None:
         """The least value is that of its time, and no other candidate's is less."""
@@ -107,11 +129,11 @@ class _Judge:
                 above = subtract(_times(n, low.denominator), _times(d, low.numerator))
                 below = subtract(_times(n, high.denominator), _times(d, high.numerator))
                 if self.sign(above, time) < 0 or self.sign(below, time) > 0:
-                    raise _DifferError(f"the distance at {time!r} is not {least!r}")
+                    raise DifferError(f"the distance at {time!r} is not {least!r}")
             for t in _candidates(piece):
                 self.decided += 1
                 if self._program.compare_roots(least, quotient_at(n, d, t)) > 0:
-                    raise _DifferError(f"the distance at {t!r} is less than {least!r}")
+                    raise DifferError(f"the distance at {t!r} is less than {least!r}")
 
 
 def _polynomials(piece: ClearancePiece) -> tuple[IntPoly, IntPoly]:

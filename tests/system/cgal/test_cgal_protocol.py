@@ -33,6 +33,8 @@ def test_there_is_an_example_of_every_request():
         "sign",
         "hull",
         "orientations",
+        "pair",
+        "union",
     }
     assert README.read_text(encoding="utf-8").count("```request") == len(EXAMPLES)
 
@@ -385,6 +387,13 @@ FAULTS = [
     ),
     (replaced(SOUND, "faces", "corners 1 4 2", "corners 1 4"), "expected a count, found 'end'"),
     (replaced(SOUND, "faces", "3 1", "4 1"), "expected a count, found 'corners'"),
+    ("pair vertices 1 0 0 bodies 1 point 0 end", "a pair has two bodies, not 1"),
+    ("pair vertices 1 0 0 bodies 3 point 0 point 0 point 0 end", "a pair has two bodies, not 3"),
+    ("pair vertices 1 0 0 bodies 2 point 0 point 1 end", "no such vertex: 1 of 1"),
+    ("pair vertices 1 0 0 bodies 2 point 0 disc 0 end", "unknown kind of body: 'disc'"),
+    ("pair bodies 0 end", "expected 'vertices', found 'bodies'"),
+    ("pair vertices 0 bodies 0 edges", "expected 'end', found 'edges'"),
+    ("union vertices 0 bodies 0 end", "a union has one body or more"),
 ]
 NO_GREETING = [
     ("", "the input ends in the middle of a request"),
