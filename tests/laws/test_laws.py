@@ -1,7 +1,8 @@
 """The laws under pytest: one test for each of them, with the cases of a tier.
 
-With --quick it is the tier "quick", else "full". The number of cases follows from recorded costs,
-so the same cases are checked on every machine. `python -m fuzz run` checks others.
+With --quick it is the tier "quick", else "full"; --laws names another one. The number of cases
+follows from recorded costs, so the same cases are checked on every machine. `python -m fuzz run`
+checks others.
 """
 
 import json
@@ -11,7 +12,7 @@ import pytest
 
 from exactpt import Scene
 from fuzz.laws.known import KNOWN, reason_of
-from fuzz.laws.runner import Case, Tally, cases_of, count_of, look, shrunk
+from fuzz.laws.runner import TIERS, Case, Tally, cases_of, count_of, look, shrunk
 from fuzz.laws.table import LAWS
 
 SEED = 0
@@ -30,7 +31,11 @@ def marked(law):
 
 @pytest.fixture
 def tier(request):
-    return "quick" if request.config.getoption("--quick") else "full"
+    default = "quick" if request.config.getoption("--quick") else "full"
+    name = request.config.getoption("--laws") or default
+    if name not in TIERS:
+        raise pytest.UsageError(f"--laws: unknown tier, got {name!r}; known: {', '.join(TIERS)}")
+    return name
 
 
 @pytest.mark.parametrize("law", [marked(law) for law in LAWS])
