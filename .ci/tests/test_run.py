@@ -19,14 +19,14 @@ PACKAGE = ["test", "turn", "test-compiled", "test-lowest", "test-docs"]
 def ci(tmp_path):
     """Run it with a `make` that prints its words, and runs what a shell would."""
 
-    def run(does=":"):
+    def run(*targets, does=":"):
         make = tmp_path / "make"
         make.write_text(f'#!/bin/sh\necho "made $* $HYPOTHESIS_PROFILE"\n{does}\n')
         make.chmod(0o755)
         path = f"{tmp_path}:{os.environ['PATH']}"
         env = {**os.environ, "PATH": path, "BASE": "no-such-commit"}
         return subprocess.run(
-            [ROOT / ".ci" / "run"], env=env, capture_output=True, text=True, check=False
+            [ROOT / ".ci" / "run", *targets], env=env, capture_output=True, text=True, check=False
         )
 
     return run
@@ -48,9 +48,16 @@ def test_run_without_a_known_base_makes_every_step_and_prints_its_minutes(ci):
     assert reported == [*(f"make {step}" for step in words), "in all"]
 
 
+def test_run_of_named_targets_makes_these(ci):
+    done = ci("quick", "test-tools TOOLS=fuzz")
+
+    assert done.returncode == 0
+    assert done.stdout.startswith("made quick ci\nmade test-tools TOOLS=fuzz ci\n\n clock")
+
+
 @pytest.mark.parametrize("step", [*PACKAGE, "test-tools"])
 def test_step_that_fails_fails_the_run_and_the_others_are_made(ci, step):
-    done = ci(f'[ "$1" != {step} ]')
+    done = ci(does=f'[ "$1" != {step} ]')
 
     assert done.returncode == 1
     assert done.stdout.count("made ") == len(PACKAGE) + 1
@@ -59,7 +66,9 @@ def test_step_that_fails_fails_the_run_and_the_others_are_made(ci, step):
 
 
 def test_cgal_tests_that_were_skipped_fail_the_run(ci):
-    done = ci('[ "$1" != test ] || echo "SKIPPED [3] tests/system/cgal/test_cgal_client.py: no"')
+    done = ci(
+        does='[ "$1" != test ] || echo "SKIPPED [3] tests/system/cgal/test_cgal_client.py: no"'
+    )
 
     line = "SKIPPED [3] tests/system/cgal/test_cgal_client.py: no"
     assert done.returncode == 1
@@ -69,7 +78,7 @@ def test_cgal_tests_that_were_skipped_fail_the_run(ci):
 def test_processor_time_of_a_step_is_that_of_its_processes_by_two(ci):
     """A process of `make` takes 2.2 seconds of one processor: 1.1 of two."""
     busy = "import time\nwhile time.process_time() < 2.2: pass"
-    done = ci(f"[ $1 != turn ] || '{sys.executable}' -c '{busy}'")
+    done = ci(does=f"[ $1 != turn ] || '{sys.executable}' -c '{busy}'")
 
     assert done.returncode == 0
     assert re.search(r" 0:01  make turn BASE=no-such-commit$", done.stdout, re.MULTILINE)
@@ -83,7 +92,7 @@ def test_run_of_more_than_half_an_hour_fails(monkeypatch, capsys):
     took = script["Took"]("make test", 61, 100)
     monkeypatch.setitem(names, "made", lambda _: (took, []))
 
-    assert script["main"]() == 1
+    assert script["main"]([]) == 1
     assert capsys.readouterr().err == "1:01 minutes; the limit is 0:00\n"
 
 
