@@ -22,7 +22,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-docs test-tools test-slow test-lowest test-exact turn old-engine night night-tests test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-docs test-tools test-slow test-random test-lowest test-exact turn old-engine night night-tests test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -39,6 +39,9 @@ test-docs: $(VENV)/developing cgal_check/build/cgal_check ## the examples, comma
 
 test-tools: $(VENV)/developing cgal_check/build/cgal_check ## the tests of the fuzz kit, the benchmarks and .ci; of some: TOOLS=fuzz
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" $(addsuffix /tests,$(TOOLS))
+
+test-random: $(VENV)/developing ## the tests of tests/unit and tests/api on ten times as many random examples
+	HYPOTHESIS_PROFILE=night $(BIN)/python -m pytest -n $(JOBS) tests/unit tests/api
 
 turn: $(VENV)/developing cgal_check/build/cgal_check ## laws by the seed of the DATE; with BASE=main only new faults fail
 	$(BIN)/python -m fuzz run --seed $(SEED) --seconds 120 $(if $(BASE),--on $(BASE))
@@ -99,10 +102,9 @@ night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs ea
 	$(BIN)/python -m fuzz planted || status=1; \
 	exit $$status
 
-night-tests: $(VENV)/developing cgal_check/build/cgal_check ## the other tests of each night: those of the pages and the tools, the slow ones, and ten times as many random examples
+night-tests: $(VENV)/developing cgal_check/build/cgal_check ## the other tests of each night: test-docs, test-tools, test-slow and test-random
 	status=0; \
-	for tests in test-docs test-tools test-slow; do $(MAKE) $$tests || status=1; done; \
-	HYPOTHESIS_PROFILE=night $(BIN)/python -m pytest -n $(JOBS) tests/unit tests/api || status=1; \
+	for tests in test-docs test-tools test-slow test-random; do $(MAKE) $$tests || status=1; done; \
 	exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
