@@ -8,7 +8,9 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
-MINUTES ?= 60
+SEED := $(subst -,,$(DATE))
+MINUTES ?= 40
+TOOLS ?= fuzz benchmarks .ci
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling collision simulation))
 PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling pairs collision arrays query))
@@ -20,7 +22,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope old-engine night test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-docs test-tools test-slow test-random test-lowest test-exact turn old-engine night night-tests test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -29,27 +31,36 @@ demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, 
 	@echo 'running the packaged scene'
 	@$(BIN)/exactpt demo
 
-test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass the tests
+test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass the tests of the package
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser"
 
-test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on thousands of scenes: an hour
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
+test-docs: $(VENV)/developing cgal_check/build/cgal_check ## the examples, commands, links and tables of all pages
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" docs
 
-test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests of a date, DATE=2026-11-22; all in a fortnight
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
+test-tools: $(VENV)/developing cgal_check/build/cgal_check ## the tests of the fuzz kit, the benchmarks and .ci; of some: TOOLS=fuzz
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" $(addsuffix /tests,$(TOOLS))
+
+test-random: $(VENV)/developing ## the tests of tests/unit and tests/api on ten times as many random examples
+	HYPOTHESIS_PROFILE=night $(BIN)/python -m pytest -n $(JOBS) tests/unit tests/api
+
+turn: $(VENV)/developing cgal_check/build/cgal_check ## laws by the seed of the DATE; with BASE=main only new faults fail
+	$(BIN)/python -m fuzz run --seed $(SEED) --seconds 120 $(if $(BASE),--on $(BASE))
+
+test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on thousands of scenes: an hour
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow tests exactpt docs $(addsuffix /tests,$(TOOLS))
 
 quick: $(VENV)/developing ## the tests that take milliseconds each: a minute on two cores
 	$(BIN)/python -m pytest -n 2 --quick tests/unit tests/api tests/laws
 
-test-lowest: $(LOWEST)/installed ## all tests that need no CGAL, but the slow ones, on the lowest versions that pyproject.toml allows
-	$(LOWEST)/bin/python -m pytest -n $(JOBS)
+test-lowest: $(LOWEST)/installed ## quick tests, examples and a minute of the laws, on the lowest versions that pyproject.toml allows
+	$(LOWEST)/bin/python -m pytest -n $(JOBS) --quick --laws minute tests/unit tests/api tests/laws exactpt
 
 test-exact: $(VENV)/developing ## the same tests with the float filters switched off
 	$(BIN)/python -m pytest -n $(JOBS) --exact-only
 
 test-browser: $(VENV)/developing ## the animation in a real browser (installs chromium)
 	@.ci/apt-install chromium chromium-driver
-	$(BIN)/python -m pytest -m browser
+	$(BIN)/python -m pytest -m browser tests docs
 
 browser: $(VENV)/developing ## the page that runs exactpt in the browser, with its wheel, in dist/browser
 	$(BIN)/python docs/make_page.py dist/browser
@@ -57,7 +68,7 @@ browser: $(VENV)/developing ## the page that runs exactpt in the browser, with i
 try-browser: $(VENV)/developing ## that page in a real browser (fetches Pyodide into .pyodide, 30 MB; needs npm)
 	@.ci/apt-install chromium chromium-driver
 	$(BIN)/python .ci/fetch_pyodide.py
-	$(BIN)/python -m pytest -m browser tests/campaign/docs/test_page_in_chromium.py
+	$(BIN)/python -m pytest -m browser docs/tests/test_page_in_chromium.py
 
 test-pyodide: $(VENV)/developing ## the tests in Pyodide, in Node.js (fetches as try-browser does): 10 minutes
 	$(BIN)/python .ci/fetch_pyodide.py
@@ -72,12 +83,9 @@ plain: ## remove what `make compiled` made
 	find exactpt -name '*.so' -delete
 	rm -rf exactpt/compiled.txt build
 
-test-compiled: compiled ## the tests of what is compiled
+test-compiled: compiled ## the quick tests of what is compiled, and a minute of the laws
 	cd / && '$(CURDIR)/$(BIN)/exactpt' --version && '$(CURDIR)/$(BIN)/python' '$(CURDIR)/.ci/is_compiled.py'
-	$(BIN)/python -m pytest -n $(JOBS) $(COMPILED_TESTS); status=$$?; $(MAKE) plain; exit $$status
-
-small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another one each day: a minute
-	$(BIN)/python -m fuzz small-scope --today --seconds 60 --jobs $(JOBS)
+	$(BIN)/python -m pytest -n $(JOBS) --quick --laws minute $(COMPILED_TESTS) tests/laws; status=$$?; $(MAKE) plain; exit $$status
 
 old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of the fuzzer, in .old-engine
 
@@ -85,12 +93,18 @@ old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of th
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
 	$(BIN)/python -m fuzz.old_engine
 
-night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, the laws, planted mistakes
-	status=0; for what in '' '--witness old'; do \
-	    $(BIN)/python -m fuzz $$what --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
+night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the laws (half of the time for a seventh of them, that of the weekday), the fuzzer with all witnesses, the small scope, planted mistakes
+	status=0; \
+	$(BIN)/python -m fuzz run --seed $(SEED) --seconds $$((120 * $(MINUTES))) --weekday $$(date -d $(DATE) +%u) || status=1; \
+	for what in '' '--witness old' 'small-scope --today'; do \
+	    $(BIN)/python -m fuzz $$what --seed $(SEED) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
 	done; \
-	$(BIN)/python -m fuzz run --seed $(subst -,,$(DATE)) --seconds $$((60 * $(MINUTES))) || status=1; \
 	$(BIN)/python -m fuzz planted || status=1; \
+	exit $$status
+
+night-tests: $(VENV)/developing cgal_check/build/cgal_check ## the other tests of each night: test-docs, test-tools, test-slow and test-random
+	status=0; \
+	for tests in test-docs test-tools test-slow test-random; do $(MAKE) $$tests || status=1; done; \
 	exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests

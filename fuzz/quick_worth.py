@@ -48,9 +48,6 @@ PARTS: Final = ("kernel", "geometry", "planar", "motion", "certificates", "pairs
 SEARCHES: Final = ("collision", "tiling", "simulation", "certificates", "kernel", "motion")
 """The parts whose tests run first for mistakes of `fuzz.planted`."""
 
-TESTED_WITH: Final = "tests/system/fuzz/test_planted.py"
-"""The test that makes the planted mistakes itself."""
-
 COMPARED: Final = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt,
                    ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
                    ast.In: ast.NotIn, ast.NotIn: ast.In}  # fmt: skip
@@ -249,8 +246,7 @@ class _Hunt:
         for item in session.items:
             tier = item.nodeid.split("/")[1]
             is_quick = tier in ("unit", "api") and not conftest.is_long(item)
-            if not item.nodeid.startswith(TESTED_WITH):
-                (quick if is_quick else others).append(item)
+            (quick if is_quick else others).append(item)
         done = set()
         if self.results.exists():
             done = {json.loads(line)["fault"] for line in self.results.read_text().splitlines()}

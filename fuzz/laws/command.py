@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+from contextlib import AbstractContextManager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
@@ -14,6 +15,7 @@ import click
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from fuzz.laws import kept
+from fuzz.laws.base import Base, Verdict
 from fuzz.laws.known import KNOWN, reason_of
 from fuzz.laws.runner import (
     COSTS,
@@ -27,12 +29,16 @@ from fuzz.laws.runner import (
     look,
     run_for,
     runnable,
+    scene_of,
     shrunk,
 )
 from fuzz.laws.table import LAWS
 from fuzz.options import FAILED, HELP, INTERRUPTED
 
 __all__ = ["again", "keep", "kept_file", "record_costs", "run"]
+
+WEEKDAY_HELP: Final = "About half of the time is that of one law in seven; 1 is Monday."
+ON_HELP: Final = "Compare each fault with this commit; only new ones fail."
 
 SAME: Final = 1.5
 """Ratio of milliseconds up to which a recorded cost stays as it is."""
@@ -67,24 +73,31 @@ def _case_of(words: tuple[str, ...]) -> Case:
 @click.option("--tier", type=click.Choice(list(TIERS)), help="The cases of a tier, by number.")
 @click.option("--seed", type=int, help="Seed of the cases; by default the date.")
 @click.option("--shrink", default=20.0, show_default=True, help="Seconds for each kind of fault.")
+@click.option("--on", "on", metavar="COMMIT", help=ON_HELP)
+@click.option("--weekday", type=click.IntRange(1, 7), help=WEEKDAY_HELP)
 @click.option("--list", "is_list", is_flag=True, help="Only list the laws.")
 def run(
     words: tuple[str, ...], seconds: float | None, tier: str | None, seed: int | None,
-    shrink: float, *, is_list: bool,
+    shrink: float, on: str | None, weekday: int | None, *, is_list: bool,
 ) -> None:  # fmt: skip
     """Check cases of the laws whose names begin with LAW, by default of all laws.
 
     Each kind of fault is reported once, in the smallest scene found, with the command that repeats
-    it. The table has the outcomes of each law.
+    it. The table has the outcomes of each law. With --on, each fault is repeated with the laws and
+    the package of another commit, such as the one before a change. A fault that is there, too, is
+    reported as "there before", and only one that is new fails the run.
 
     \b
     Examples:
       python -m fuzz run --seconds 600
+      python -m fuzz run --seconds 120 --on main
       python -m fuzz run tiling space --seed 7
       python -m fuzz run --tier full --seed 0
     """
     if seconds is not None and tier is not None:
         raise click.UsageError("--seconds and --tier exclude each other; leave one of them out")
+    if weekday is not None and tier is not None:
+        raise click.UsageError("--weekday and --tier exclude each other; leave one of them out")
     laws = _laws_of(words)
     if is_list:
         click.echo("\n".join(f"{law:26}{LAWS[law].meaning}" for law in laws))
@@ -96,28 +109,75 @@ def run(
     seed = _today() if seed is None else seed
     click.echo(f"{len(laws)} laws, seed {seed}")
     if tier is None:
-        looked = run_for(laws, seed, 60.0 if seconds is None else seconds)
+        favoured = [] if weekday is None else laws[weekday - 1 :: 7]
+        looked = run_for(laws, seed, 60.0 if seconds is None else seconds, favoured)
     else:
         looked = (look(case) for law in laws for case in cases_of(law, seed, count_of(law, tier)))
-    tally, reported, is_interrupted = Tally(), set(), False
-    try:
-        for one in looked:
-            tally.add(one)
-            fault = one.fault
-            if fault is None or reason_of(str(one.case)) is not None:
-                continue
-            if (one.case.law, fault.signature) not in reported:
-                reported.add((one.case.law, fault.signature))
-                click.echo(shrunk(fault, shrink).report)
-    except KeyboardInterrupt:
-        is_interrupted = True
+    tally, reports, is_interrupted = Tally(), _Reports(shrink), False
+    with _base_of(on) as reports.base:
+        try:
+            for one in looked:
+                tally.add(one)
+                if one.fault is not None and reason_of(str(one.case)) is None:
+                    reports.add(one.fault)
+        except KeyboardInterrupt:
+            is_interrupted = True
     click.echo("\n".join(tally.table()))
     healed = [] if is_interrupted else _healed(laws)
     for case in healed:
         click.echo(f"holds, and is known to be broken (fuzz/laws/known.py): {case}")
     if is_interrupted:
         sys.exit(INTERRUPTED)
-    sys.exit(FAILED if reported or healed else 0)
+    sys.exit(FAILED if reports.has_new or healed else 0)
+
+
+def _base_of(commit: str | None) -> AbstractContextManager[Base | None]:
+    """Return the other commit, opened; None if none is named.
+
+    Raises:
+        UsageError: if the repository has no such commit.
+    """
+    if commit is None:
+        return nullcontext()
+    try:
+        return Base(commit)
+    except InputError as error:
+        raise click.UsageError(f"--on: {error}") from None
+
+
+class _Reports:
+    """Reports each kind of fault once, and once more if it is new where the first one was not.
+
+    Attributes:
+        base: the commit with which faults are compared; None for none: all of them are new.
+        has_new: True if a fault was new.
+    """
+
+    def __init__(self, shrink: float) -> None:
+        self.base: Base | None = None
+        self.has_new = False
+        self._shrink = shrink
+        self._reported = set[tuple[str, str, bool]]()
+
+    def add(self, fault: Fault) -> None:
+        """Report a fault, unless its kind has been reported."""
+        kind = fault.case.law, fault.signature
+        if (*kind, True) in self._reported:
+            return
+        if (*kind, False) in self._reported and not self._verdict(fault).is_new:
+            return
+        smaller = shrunk(fault, self._shrink)
+        verdict = self._verdict(fault, smaller)
+        self._reported.add((*kind, verdict.is_new))
+        self.has_new |= verdict.is_new
+        click.echo(smaller.report)
+        if self.base is not None:
+            click.echo(f"  {verdict}")
+
+    def _verdict(self, fault: Fault, smaller: Fault | None = None) -> Verdict:
+        if self.base is None:
+            return Verdict(is_new=True, why="")
+        return self.base.verdict(fault, smaller)
 
 
 def _healed(laws: list[str]) -> list[str]:
@@ -129,14 +189,32 @@ def _healed(laws: list[str]) -> list[str]:
 @click.command("again", context_settings=HELP)
 @click.argument("words", nargs=-1, required=True, metavar="LAW SOURCE:SEED:NUMBER")
 @click.option("--shrink", default=20.0, show_default=True, help="Seconds for shrinking.")
-def again(words: tuple[str, ...], shrink: float) -> None:
-    """Repeat a case; report the fault in the smallest scene found."""
-    looked = look(_case_of(words))
-    if looked.fault is None:
-        click.echo(f"holds: {looked.outcome}")
-        return
-    click.echo(shrunk(looked.fault, shrink).report)
-    sys.exit(FAILED)
+@click.option("--on", "on", metavar="COMMIT", help=ON_HELP)
+def again(words: tuple[str, ...], shrink: float, on: str | None) -> None:
+    """Repeat a case; report the fault in the smallest scene found.
+
+    With --on, the case is repeated on the same scene with the laws and the package of another
+    commit, too. The exit code is 1 if the law is broken, unless that commit breaks it in the same
+    way.
+
+    \b
+    Examples:
+      python -m fuzz again 'first contact/reference' 'corpus:0:13'
+      python -m fuzz again 'first contact/reference' 'corpus:0:13' --on main
+    """
+    case = _case_of(words)
+    looked = look(case)
+    reports = _Reports(shrink)
+    with _base_of(on) as base:
+        if looked.fault is None:
+            click.echo(f"holds: {looked.outcome}")
+            scene = scene_of(case)
+            if base is not None and scene is not None:
+                click.echo(f"  {base.outcome(case, scene)}")
+            return
+        reports.base = base
+        reports.add(looked.fault)
+    sys.exit(FAILED if reports.has_new else 0)
 
 
 @click.command("keep", context_settings=HELP)

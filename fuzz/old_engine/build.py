@@ -7,24 +7,22 @@ environment in which it runs.
 
 from __future__ import annotations
 
-import io
 import os
 import shutil
 import subprocess
 import sys
-import tarfile
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
 from exactpt.errors import InputError
+from fuzz.commits import ROOT, unpack
 
 __all__ = ["COMMIT", "FOLDER", "SITE", "build", "is_built"]
 
 COMMIT: Final = "c49c20d683d5a8126f098fb248ac8accf7b5693b"
 """The last commit of version 0.2."""
 
-ROOT: Final = Path(__file__).parents[2]
 FOLDER: Final = ROOT / ".old-engine"
 SITE: Final = FOLDER / "site"
 """What is put before all other packages where the old engine runs."""
@@ -49,7 +47,10 @@ def build() -> Path:
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir()
     with TemporaryDirectory() as place:
-        _unpack(Path(place))
+        try:
+            unpack(COMMIT, Path(place))
+        except InputError as error:
+            raise InputError(f"the old engine: {error}") from None
         # Plain: mistakes are planted and traced in plain modules, and no compiler is needed.
         plain = {**os.environ, "EXACTPT_PLAIN": "1"}
         offline = ("--no-deps", "--no-build-isolation", "--no-index")
@@ -58,22 +59,6 @@ def build() -> Path:
     _pip("install", "--no-deps", "--no-index", "--target", str(SITE), str(wheel))
     _BUILT.write_text(f"{COMMIT}\n", encoding="ascii")
     return wheel
-
-
-def _unpack(place: Path) -> None:
-    """Unpack the files of the commit; a shallow clone fetches it first."""
-    if _git("cat-file", "-e", f"{COMMIT}^{{commit}}").returncode != 0:
-        _git("fetch", "--quiet", "--depth=1", "origin", COMMIT)
-    archive = _git("archive", "--format=tar", COMMIT)
-    if archive.returncode != 0:
-        why = archive.stderr.decode(errors="replace").strip()
-        raise InputError(f"the old engine: no commit {COMMIT} in {ROOT}: {why}; fetch it")
-    with tarfile.open(fileobj=io.BytesIO(archive.stdout)) as files:
-        files.extractall(place, filter="data")
-
-
-def _git(*words: str) -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, check=False)
 
 
 def _pip(*words: str, environment: dict[str, str] | None = None) -> None:

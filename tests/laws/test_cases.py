@@ -1,7 +1,7 @@
 """Kept cases under every law that suits them: one test for each file of tests/cases.
 
-In the tier "quick" a case is checked by the law that it once broke, and by some others, which its
-name decides. A law that says nothing about a scene leaves it out by itself.
+In tiers other than "full" a case is checked by the law that it once broke, and by some others, which
+its name decides. A law that says nothing about a scene leaves it out by itself.
 """
 
 from zlib import crc32
@@ -15,16 +15,16 @@ from fuzz.laws.runner import Case, laws_of_cases, look, shrunk
 from fuzz.laws.table import LAWS
 
 SHRINKING = 5.0  # seconds
-DRAWS = {"quick": 1, "full": 2}  # random choices of a law in a scene
-QUICK = 4  # laws of a case in the tier "quick"
+FULL_DRAWS = 2  # random choices of a law in a scene, in the tier "full"; else one
+SOME = 4  # laws of a case in other tiers
 
 
 def laws_of(name, case, needs, tier):
     """Return the laws under which a case is checked: first the one that it broke, if any."""
     broken = [case.law] if case.law and LAWS[case.law].needs == needs else []
     others = [law for law in laws_of_cases(needs) if law != case.law]
-    if tier == "quick":
-        others = sorted(others, key=lambda law: crc32(f"{name} {law}".encode()))[:QUICK]
+    if tier != "full":
+        others = sorted(others, key=lambda law: crc32(f"{name} {law}".encode()))[:SOME]
     return broken + others
 
 
@@ -32,7 +32,7 @@ def check(name, tier, needs=""):
     case = kept(name)
     assert case.law in {"", *LAWS}, f"{name}.json: no such law"
     for law in laws_of(name, case, needs, tier):
-        for number in range(DRAWS[tier]):
+        for number in range(FULL_DRAWS if tier == "full" else 1):
             one = Case(law, f"{PREFIX}{name}", 0, number)
             fault = look(one).fault
             if fault is not None and reason_of(str(one)) is None:

@@ -1,7 +1,8 @@
 """The laws under pytest: one test for each of them, with the cases of a tier.
 
-With --quick it is the tier "quick", else "full". The number of cases follows from recorded costs,
-so the same cases are checked on every machine. `python -m fuzz run` checks others.
+With --quick it is the tier "quick", else "full"; --laws names another one. The number of cases
+follows from recorded costs, so the same cases are checked on every machine. `python -m fuzz run`
+checks others.
 """
 
 import pytest

@@ -38,6 +38,12 @@ def test_wheels_are_built_for_the_pythons_that_are_named():
     assert {f"3.{minor}" for minor in built} >= named
 
 
+def test_fuzzer_is_in_the_repository_and_not_in_the_wheel():
+    assert PROJECT["tool"]["setuptools"]["packages"]["find"]["include"] == ["exactpt*"]
+    assert (ROOT / "fuzz" / "__main__.py").is_file()
+    assert not (ROOT / "exactpt" / "fuzz").exists()
+
+
 def requirements(*groups):
     """Return the requirements of the package and of groups, the included ones too."""
     found = PROJECT["project"]["dependencies"][:]
@@ -90,7 +96,8 @@ def test_workflows_run_make_targets_that_there_are(workflow):
     named = {run.split()[1] for run in runs}
     assert all(re.fullmatch(r'make ([a-z-]+|"\$TARGET") PYTHON=python', run) for run in runs)
     if '"$TARGET"' in named:
-        named = set(re.findall(r"target: \[?([a-z-]+)", text))
+        lists = re.findall(r"target: \[?([a-z-]+(?:, [a-z-]+)*)", text)
+        named = {target for listed in lists for target in listed.split(", ")}
     assert named
     assert named <= TARGETS
 

@@ -148,6 +148,7 @@ def test_rings_that_fill_nothing_are_refused(tmp_path, path, message):
     assert len(left) == path.count("Z") - 1 - ("common" in message)
 
 
+@pytest.mark.long
 def test_many_subpaths_of_one_path_are_read(tmp_path):
     """A thousand rings in each other, by both rules."""
     rings = " ".join(f"M{k} {k}H{2000 - k}V{2000 - k}H{k}Z" for k in range(1000))

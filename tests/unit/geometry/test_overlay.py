@@ -161,6 +161,7 @@ def test_unchanged_rings_come_back_as_given():
     assert as_given(evenodd([second]), [second])[0].outline is second
 
 
+@pytest.mark.long(*(f"{block}-{size}" for block in range(1, 4) for size in ("few", "many")))
 @pytest.mark.parametrize("size", ["few", "many"])
 @pytest.mark.parametrize("block", range(4))
 def test_random_drawings_have_the_parts_of_the_definition(monkeypatch, block, size):

@@ -172,6 +172,7 @@ def accepted(parts):
     return True
 
 
+@pytest.mark.long("1", "2", "3")
 @pytest.mark.parametrize("seed", range(4))
 def test_what_is_accepted_is_valid_by_geos_and_by_cutting_into_trapezoids(seed):
     """On integers, shapely's `is_valid` is exact enough; the third way is that by cells."""

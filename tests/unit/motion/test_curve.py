@@ -72,6 +72,7 @@ def test_jumps_add_up_and_the_largest_sum_counts():
     assert spline(curve([[[a], [1.0]] for a in x])).error == 5 * Fraction(ULP)
 
 
+@pytest.mark.long
 def test_jumps_of_the_angle_are_taken_out_of_the_error():
     still = [0.0, 0.0]
     turning = [[still, still, [0.25, 1.0]], [still, still, [1.25 + 4 * ULP, 1.0]]]

@@ -247,6 +247,7 @@ def test_ignoring_is_not_transitive_in_certificates(verdict):
     assert (code, "proved is only a part" in said) == (1, True)
 
 
+@pytest.mark.long
 def test_patterns_of_many_bodies_are_counted(verdict):
     """A megabyte of patterns would fill the memory: each stands for thousands of bodies."""
     bodies = [(f"b{k}", k, 0, {}) for k in range(5000)]

@@ -16,7 +16,7 @@ import pytest
 from docs.make_page import PAGE, write
 from exactpt.cli.browser import answer
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 PYODIDE = ROOT / ".pyodide"
 LOCK = "pyodide-lock.json"
 

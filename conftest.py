@@ -1,18 +1,19 @@
-"""Hypothesis profiles, limits, three options; CGAL's witness and Chromium as fixtures.
+"""Hypothesis profiles, limits, options; CGAL's witness and Chromium as fixtures.
 
-``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer. With
---quick it is ``quick``, and tests with the marker `long` are left out.
+The profile ``dev``, of random examples, is the default. HYPOTHESIS_PROFILE=ci has the same ones in
+each run, ``night`` has ten times as many. With --quick there are half as many, the same in each
+run, and tests with the marker `long` are left out. With --processor-seconds the table at the end
+has what the tests of each folder took.
 """
 
 import gc
 import os
 import shutil
 import warnings
-from datetime import date
+from collections import Counter
 
 import pytest
 from hypothesis import HealthCheck, settings
-from rotation import turn_of
 
 from exactpt import AlgebraicNumber, InputError
 from exactpt.certificates.at_time import PredicatesAt
@@ -20,21 +21,19 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.cgal import CgalCheck, find_program
 from exactpt.kernel import filters
 
-settings.register_profile(
-    "dev", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
-settings.register_profile(
-    "ci",
-    max_examples=150,
-    derandomize=True,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
-settings.register_profile(
-    "quick", max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
+EXAMPLES = {"dev": 50, "ci": 50, "quick": 25, "night": 500}
+SAME_IN_EACH_RUN = {"ci", "quick"}
+for profile, examples in EXAMPLES.items():
+    settings.register_profile(
+        profile,
+        max_examples=examples,
+        derandomize=profile in SAME_IN_EACH_RUN,
+        deadline=None,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
 
 MAX_BITS = 100_000
+BEGAN = pytest.StashKey[float]()
 
 FLAGS = (
     "--headless",
@@ -54,16 +53,21 @@ def pytest_addoption(parser):
     )
     parser.addoption("--quick", action="store_true", help="no long tests")
     parser.addoption(
-        "--rotating",
-        metavar="DATE",
-        type=date.fromisoformat,
-        help="of the tests that -m selects only those whose turn it is on this date",
+        "--laws",
+        metavar="TIER",
+        help="the tier whose cases tests/laws checks; by default full, and quick with --quick",
+    )
+    parser.addoption(
+        "--processor-seconds",
+        action="store_true",
+        help="report the processor time of the tests of each folder, and of their processes",
     )
 
 
 def pytest_configure(config):
-    default = "quick" if config.getoption("--quick") else "dev"
-    settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", default))
+    is_quick = config.getoption("--quick")
+    chosen = "quick" if is_quick else os.environ.get("HYPOTHESIS_PROFILE", "dev")
+    settings.load_profile(chosen)
 
 
 def is_long(item):
@@ -85,10 +89,6 @@ def pytest_collection_modifyitems(config, items):
         items[:] = [item for item in items if not is_long(item)]
         gc.collect()
         gc.freeze()
-    if day := config.getoption("--rotating"):
-        turn = turn_of(items, day)
-        config.hook.pytest_deselected(items=list(set(items).difference(turn)))
-        items[:] = turn
     if filters.__file__.endswith(".py"):
         return
     if config.getoption("--exact-only"):
@@ -96,6 +96,47 @@ def pytest_collection_modifyitems(config, items):
     for item in items:
         if item.get_closest_marker("plain"):
             item.add_marker(pytest.mark.skip(reason="patches classes, which are compiled"))
+
+
+SECONDS = Counter()
+"""Processor seconds by folder; with pytest-xdist they are those that the workers report."""
+
+
+def processor_seconds():
+    """Return the seconds of processor time of this process, and of its own that have ended."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_setup(item):
+    """Measure a test with its fixtures; the report of the teardown takes the result along."""
+    item.stash[BEGAN] = processor_seconds()
+    return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    report = yield
+    if call.when == "teardown":
+        spent = processor_seconds() - item.stash[BEGAN]
+        report.user_properties.append(("processor seconds", spent))
+    return report
+
+
+def pytest_runtest_logreport(report):
+    if report.when == "teardown":
+        folder = report.nodeid.partition("::")[0].rpartition("/")[0]
+        SECONDS[folder] += dict(report.user_properties)["processor seconds"]
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    if not config.getoption("--processor-seconds"):
+        return
+    terminalreporter.section("processor seconds")
+    for folder, seconds in SECONDS.most_common():
+        terminalreporter.line(f"{seconds:9.1f}  {folder}")
+    terminalreporter.line(f"{SECONDS.total():9.1f}  all tests")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,11 +1,11 @@
 """What counts as a kept promise, and which questions an engine is asked."""
 
 import pytest
-from bench_help import square
 from folding import every
 
 from benchmarks.engines.domain import as_asked, from_zero, kind_of, why_not
 from benchmarks.engines.promise import WITHIN, Leeway, fault, leeway
+from benchmarks.tests.bench_help import square
 from exactpt.testing import FAMILIES, Moving, Question, make_question, truths
 from exactpt.testing.truth import Truth, truth_of
 

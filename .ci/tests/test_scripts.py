@@ -1,69 +1,17 @@
-"""The scripts in .ci: run, on-python, lowest."""
+"""The scripts in .ci: on-python, lowest."""
 
 import os
 import re
 import runpy
 import subprocess
 import sys
-from pathlib import Path
 
 import checkout
 import pytest
 
-ci_mark = pytest.mark.skipif(sys.platform == "win32", reason="a script for sh")
-
-ROOT = Path(__file__).parents[3]
-STEPS = ["test", "test-compiled", "test-lowest", "test-rotating", "small-scope"]
-
-
-@pytest.fixture
-def ci(tmp_path):
-    """Run it with a `make` that prints its target, and runs what a shell would."""
-
-    def run(does=":"):
-        make = tmp_path / "make"
-        make.write_text(f'#!/bin/sh\necho "made $1 $HYPOTHESIS_PROFILE"\n{does}\n')
-        make.chmod(0o755)
-        env = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
-        return subprocess.run(
-            [ROOT / ".ci" / "run"], env=env, capture_output=True, text=True, check=False
-        )
-
-    return run
-
-
-@ci_mark
-def test_every_step_is_made_and_its_minutes_told(ci):
-    done = ci()
-
-    made, minutes = done.stdout.split("\nminutes:\n")
-    assert done.returncode == 0
-    assert made == "".join(f"made {s} {'ci' if s == 'test' else 'dev'}\n" for s in STEPS)
-    reported = re.findall(r"^ *\d+:\d\d  (.*)$", minutes, re.MULTILINE)
-    assert reported == [*(f"make {s}" for s in STEPS), "in all"]
-
-
-@ci_mark
-@pytest.mark.parametrize("step", STEPS)
-def test_a_step_that_fails_fails_it_and_the_others_are_made(ci, step):
-    done = ci(f'[ "$1" != {step} ]')
-
-    assert done.returncode == 1
-    assert done.stdout.count("made ") == len(STEPS)
-    assert done.stdout.splitlines()[-1] == f"FAILED STEP {step}"
-
-
-@ci_mark
-def test_cgal_tests_that_were_skipped_fail_it(ci):
-    done = ci('echo "SKIPPED [3] tests/system/cgal/test_cgal_client.py: no program"')
-
-    assert done.returncode == 1
-    assert done.stderr == "CGAL tests were skipped\n"
-
-
 # .ci/on-python refuses what it cannot do in a line, and shows why a chroot could not be made
 
-on_python_mark = pytest.mark.skipif(sys.platform != "linux", reason="a script for Debian")
+needs_debian = pytest.mark.skipif(sys.platform != "linux", reason="a script for Debian")
 
 USAGE = "usage: .ci/on-python RELEASE [TARGET...] [PYTHON=python3.N] [JOBS=N]\n"
 NEEDS = ".ci/on-python needs root and debootstrap (apt-get install debootstrap)\n"
@@ -86,19 +34,19 @@ def run(folder, *arguments, user="0", debootstrap="for n in 1 2 3 4; do echo $n 
     return done.returncode, done.stderr
 
 
-@on_python_mark
+@needs_debian
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["../trixie"], [".."]])
 def test_a_release_is_needed(tmp_path, arguments):
     assert run(tmp_path, *arguments) == (2, USAGE)
     assert not (tmp_path / "chroots").exists()
 
 
-@on_python_mark
+@needs_debian
 def test_root_is_needed(tmp_path):
     assert run(tmp_path, "trixie", user="1000") == (2, NEEDS)
 
 
-@on_python_mark
+@needs_debian
 def test_the_last_lines_of_a_failed_debootstrap_are_shown(tmp_path):
     code, errors = run(tmp_path, "trixie")
 
@@ -111,8 +59,8 @@ def test_the_last_lines_of_a_failed_debootstrap_are_shown(tmp_path):
 
 # The constraints of `make test-lowest` are the lower bounds of pyproject.toml
 
-PYPROJECT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-lowest = runpy.run_path(str(ROOT / ".ci" / "lowest.py"))["lowest"]
+PYPROJECT = (checkout.ROOT / "pyproject.toml").read_text(encoding="utf-8")
+lowest = runpy.run_path(str(checkout.ROOT / ".ci" / "lowest.py"))["lowest"]
 
 
 def project(*requirements, extra=(), group=()):

@@ -17,7 +17,7 @@ from exactpt.collision.detector import METHODS
 from exactpt.errors import AuditError
 from exactpt.tiling import catalogue
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 SCENES = ["demo", "discs", "graze", "near-miss"]
 
 

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from exactpt.cli import cli
 from exactpt.testing import Question, make_question, truths
 
-PAGE = (Path(__file__).parents[3] / "docs" / "testing.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
 
 
 def blocks(language):

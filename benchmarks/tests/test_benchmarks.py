@@ -7,7 +7,6 @@ from random import Random
 from types import SimpleNamespace
 
 import pytest
-from bench_help import Results, meeting
 from click.testing import CliRunner
 
 from benchmarks import (
@@ -42,6 +41,7 @@ from benchmarks.methods.method import Method
 from benchmarks.number_types import ARITHMETICS
 from benchmarks.planted import FAMILIES as PLANTED
 from benchmarks.planted import Planted
+from benchmarks.tests.bench_help import Results, meeting
 from exactpt import AlgebraicNumber, AuditError, Body, Scene
 from exactpt.cli import main
 

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from bench_help import Results, square
 
 from benchmarks import engines
 from benchmarks.engines import asking, engine
@@ -23,10 +22,11 @@ from benchmarks.engines.engine import (
     all_adapters,
     node_modules,
 )
+from benchmarks.tests.bench_help import Results, square
 from exactpt.errors import InputError
 from exactpt.testing import Moving, Question, Truth
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "docs" / "engines"
 
 ADAPTER = '''"""An engine that is planted: exactpt, and a mistake."""

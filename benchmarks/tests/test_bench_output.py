@@ -5,13 +5,13 @@ from itertools import islice
 from random import Random
 
 import pytest
-from bench_help import Results
 
 from benchmarks.floor import CERTIFICATES, floor
 from benchmarks.machine import machine
 from benchmarks.peers import PEERS, is_installed
 from benchmarks.plots import draw_lines, draw_shares, series_of
 from benchmarks.shapes import crowd
+from benchmarks.tests.bench_help import Results
 from benchmarks.timing import exponent, memory_of, microseconds, timed
 from exactpt.collision.driver import Driver
 from exactpt.tiling.start import start_tiling

@@ -13,7 +13,7 @@ import pytest
 
 import exactpt
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 
 

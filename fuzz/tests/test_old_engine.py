@@ -11,6 +11,7 @@ from exactpt import Body, InputError, Scene, Translation
 from exactpt.errors import AuditError
 from exactpt.testing.scenes import EVERY
 from fuzz import __main__ as command
+from fuzz import commits
 from fuzz.cases import LEFT_OUT, Case, Scenes, run_case
 from fuzz.changes.excerpts import scene_of
 from fuzz.old_engine import build
@@ -164,7 +165,9 @@ def test_families_that_spin_are_refused_by_the_other_witnesses():
 @pytest.mark.slow
 def test_the_old_engine_is_built_of_its_commit_and_says_its_version(tmp_path, monkeypatch):
     known = subprocess.run(
-        ["git", "-C", build.ROOT, "cat-file", "-e", build.COMMIT], check=False, capture_output=True
+        ["git", "-C", commits.ROOT, "cat-file", "-e", build.COMMIT],
+        check=False,
+        capture_output=True,
     )
     if known.returncode != 0:
         pytest.skip("no repository with this commit")
@@ -184,7 +187,7 @@ def test_the_old_engine_is_built_of_its_commit_and_says_its_version(tmp_path, mo
 
 def test_a_commit_that_is_not_there_is_an_error_of_one_line(tmp_path, monkeypatch):
     monkeypatch.setattr(build, "FOLDER", tmp_path / "old")
-    monkeypatch.setattr(build, "ROOT", tmp_path)
+    monkeypatch.setattr(commits, "ROOT", tmp_path)
 
     with pytest.raises(InputError, match="the old engine: no commit c49c20d6") as error:
         build.build()

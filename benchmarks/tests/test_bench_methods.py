@@ -4,7 +4,6 @@ import sys
 from random import Random
 
 import pytest
-from bench_help import closing_jaw, meeting, passing, segments_and_points, thrown, turning
 from folding import every
 
 from benchmarks.methods import others, own
@@ -18,6 +17,14 @@ from benchmarks.peers import is_installed
 from benchmarks.planted import FAMILIES, Planted
 from benchmarks.programs import with_fcl
 from benchmarks.shapes import combs, tangle
+from benchmarks.tests.bench_help import (
+    closing_jaw,
+    meeting,
+    passing,
+    segments_and_points,
+    thrown,
+    turning,
+)
 from benchmarks.wrong_answers import Wrong, count_wrong
 from exactpt import Body, Scene, Translation
 from exactpt.kernel.algebraic import AlgebraicNumber

@@ -14,7 +14,7 @@ from exactpt.cli import all_commands
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("site")]
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")

@@ -44,7 +44,7 @@ from fuzz.small_scope.scenes import touching
 from fuzz.small_scope.scope import COMPLETE, entries, in_part, planned, sizes
 from fuzz.small_scope.shapes import SYMMETRIES, image, shape_of, shapes, turned
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 def edge_set(points, closed):

@@ -34,7 +34,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptio
 """A signal that comes during a collection is handled in Hypothesis's callback of the collector,
 which drops the exception, with a warning; the next signal ends the work."""
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 FAMILIES = ("row", "grazing", "clamps")
 SMALL = Scenes(FAMILIES, ("reference",), seed=5)
 

@@ -28,7 +28,7 @@ from exactpt.testing import families
 from exactpt.testing.oracle import Refusals
 from exactpt.testing.oracle import answers as oracle_answers
 
-SAMPLE = Path(__file__).parents[2] / "data" / "collision-set"
+SAMPLE = Path(__file__).with_name("collision-set")
 SIZES = {"questions": 76, "scenes": 36}
 
 
@@ -162,7 +162,7 @@ def test_a_folder_that_is_not_empty_is_refused(tmp_path, capsys):
 def test_a_set_whose_readme_would_lack_its_descriptions_is_refused(tmp_path):
     """With PYTHONOPTIMIZE=2 the README said "None" of each family."""
     command = [sys.executable, "-OO", "-m", "benchmarks.collision_set", tmp_path / "set"]
-    root = Path(__file__).parents[3]
+    root = Path(__file__).parents[2]
 
     done = subprocess.run(
         [*command, "--questions", "0"], cwd=root, capture_output=True, text=True, check=False

@@ -21,7 +21,7 @@ from fuzz.hostile.files import FORMATS, batch_files, hostile, scene_text
 from fuzz.hostile.run import OUTCOMES, Files
 from fuzz.limits import memory_bounded
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 def run(formats, count, keep, seed=0):

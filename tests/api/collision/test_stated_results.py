@@ -1,52 +1,16 @@
-"""Statements of README and the pages about results, events, floats and files."""
+"""Statements of README and the pages about results, detours and the share of exact decisions."""
 
 import inspect
-import json
-import pickle
-import re
-import subprocess
-import sys
-import tomllib
 from fractions import Fraction
-from functools import partial
-from pathlib import Path
 from random import Random
 
 import pytest
 
-from exactpt import AuditError, Body, Rigid, Scene, Simulation, Translation, cli, first_contact
+from exactpt import Body, Rigid, Scene, Simulation, Translation, first_contact
 from exactpt.cli.runs import collide
 from exactpt.motion import swept_edges
 from exactpt.pairs import features_sweep as pairs
 from exactpt.pairs import search as linear_search
-from exactpt.testing.scenes import generate
-
-ROOT = Path(__file__).parents[3]
-FORMAT = (ROOT / "docs" / "format.md").read_text(encoding="utf-8")
-
-
-@pytest.mark.long
-def test_the_answer_on_the_format_page_is_that_of_its_scene(tmp_path):
-    scene, stated = re.findall(r"```json\n(.*?)```", FORMAT, re.DOTALL)[:2]
-    (tmp_path / "scene.json").write_text(scene)
-    command = [sys.executable, "-m", "exactpt", "collide", tmp_path / "scene.json", "--json"]
-
-    answer = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
-
-    stated = json.loads(stated)
-    shown = {key: answer["stats"][key] for key in stated["stats"]}
-    assert stated == {**answer, "stats": shown}
-
-
-def test_the_kinds_of_events_on_the_format_page_are_those_that_happen():
-    (listed,) = re.findall(r'"kind": "([\w|-]+\|[\w|-]+)"', FORMAT)
-    happened = {
-        event.kind
-        for family in ("convex", "mixed_shapes", "pieces", "row", "ballistic_points")
-        for event in Simulation(generate(family, 0)).run()
-    }
-
-    assert happened == set(listed.split("|"))
 
 
 def test_a_gap_of_a_hair_is_a_gap():
@@ -157,64 +121,3 @@ def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
     assert simulation.is_free(start, goal)
     assert simulation.shortest_path(start, goal).length == 5
     assert simulation.path(start, goal).length > 5
-
-
-def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkeypatch, capsys):
-    scene = ROOT / "exactpt" / "data" / "demo.json"
-
-    def broken(*_):
-        raise AuditError("broken on purpose")
-
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", broken)
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    with pytest.raises(SystemExit) as ended:
-        cli.main(["collide", str(scene), "--method", "kinetic"])
-
-    (saved,) = tmp_path.iterdir()
-    assert ended.value.code == 3
-    assert str(saved) in capsys.readouterr().err
-    assert saved.read_bytes() == scene.read_bytes()
-
-
-@pytest.mark.parametrize("how", ["simulation", "kinetic", "pairs", "running"])
-def test_an_error_raised_in_python_has_its_scene(tmp_path, monkeypatch, how):
-    scene = Scene.load(ROOT / "exactpt" / "data" / "demo.json")
-
-    def broken(*_, **__):
-        raise AuditError("broken on purpose")
-
-    monkeypatch.setattr("exactpt.pairs.features_sweep.PairsSearch.run_to_contact", broken)
-    calls = {
-        "simulation": partial(Simulation, scene),
-        "kinetic": partial(first_contact, scene, method="kinetic"),
-        "pairs": partial(first_contact, scene, method="pairs"),
-        "running": Simulation(scene).step,
-    }
-    place = "advance" if how == "running" else "begin"
-    monkeypatch.setattr(f"exactpt.tiling.engine.Engine.{place}", broken)
-    with pytest.raises(AuditError) as caught:
-        calls[how]()
-    (pickle.loads(pickle.dumps(caught.value)).scene or scene).save(tmp_path / "bug.json")
-
-    assert caught.value.__notes__ == ['To report it, save the scene: error.scene.save("bug.json")']
-    assert Scene.load(tmp_path / "bug.json") == scene == caught.value.scene
-
-
-def test_the_library_saves_nothing(tmp_path, monkeypatch):
-    """It raises; the scene is the caller's."""
-    scene = Scene.load(ROOT / "exactpt" / "data" / "demo.json")
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", lambda *_: 1 // 0)
-
-    with pytest.raises(ZeroDivisionError):
-        Simulation(scene)
-
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_the_fuzzer_is_in_the_repository_and_not_in_the_wheel():
-    packages = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
-
-    assert packages["packages"]["find"]["include"] == ["exactpt*"]
-    assert (ROOT / "fuzz" / "__main__.py").is_file()
-    assert not (ROOT / "exactpt" / "fuzz").exists()
