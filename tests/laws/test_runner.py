@@ -105,6 +105,26 @@ def test_law_whose_program_is_not_built_is_left_out(monkeypatch):
     assert result.exit_code == 0
 
 
+TWO = Scene([Body("a", [(0, 0), (1, 0), (0, 1)]), Body("b", [(3, 0), (4, 0), (4, 1), (3, 1)])])
+
+
+def draws_its_own(scene, random):
+    """A law that draws its own scenes: no body is a triangle."""
+    drawn = scene if scene.bodies else TWO
+    if any(body.size == 3 for body in drawn.bodies):
+        raise Difference("triangle", f"{len(drawn.bodies)} bodies", drawn)
+    return "none"
+
+
+def test_fault_in_a_scene_that_a_law_has_drawn_itself_is_shrunk(monkeypatch):
+    monkeypatch.setitem(table.LAWS, "test/own", Law(draws_its_own, ("own",)))
+
+    fault = look(Case("test/own", "own", 0, 0)).fault
+
+    assert fault.scene == TWO
+    assert [body.name for body in shrunk(fault, 10.0).scene.bodies] == ["a"]
+
+
 def test_fault_is_shrunk_to_the_same_signature(broken):
     fault = first_fault(broken)
 
