@@ -94,7 +94,7 @@ night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs ea
 	    $(BIN)/python -m fuzz $$what --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
 	done; \
 	$(BIN)/python -m fuzz run --seed $(subst -,,$(DATE)) --seconds $$((60 * $(MINUTES))) || status=1; \
-	$(BIN)/python -m fuzz planted || status=1; \
+	$(BIN)/python -m fuzz power || status=1; \
 	exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests

@@ -1,23 +1,20 @@
-"""Planted bugs: classic mistakes, made one at a time, that the fuzzer must find.
+"""Planted mistakes: classic ones, made one at a time, that the laws must find.
 
-They show that the fuzzer would find a fault if there were one. Each mistake is a temporary
-change of one function, given by a replacement of its text or of the whole function: so it outlives
-renumbered lines and renamed modules. It is hunted where its kind shows: in scenes of families, in
-awkward ones, in the small scope, or by a question.
+They show that the laws would find a fault if there were one (`python -m fuzz power`). Each mistake
+is a temporary change of one function: of its text, or of the whole function. So it outlives
+renumbered lines and renamed modules.
 """
 
 from __future__ import annotations
 
-import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from itertools import count
-from random import Random
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 from unittest.mock import patch
 
-from exactpt import AlgebraicNumber, InputError
+from exactpt import AlgebraicNumber
 from exactpt.arrays import radii, turning
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
 from exactpt.certificates.certifier import Certifier
@@ -35,39 +32,15 @@ from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.search import LinearSearch
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
-from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
-from fuzz.cases import QUESTION, Failure, failure_of
-from fuzz.changes.awkward import SUFFIX, awkward
 from fuzz.power.edits import Edit, Function, Replacement
-from fuzz.questions.command import KEPT, ask
-from fuzz.small_scope.look import look
-from fuzz.small_scope.scope import planned
 
-__all__ = ["MOST", "PLANTED", "WITNESSES", "Found", "Mistake", "hunt", "table"]
-
-WITNESSES: Final = ("reference", "static", "filters", "symmetry")
-
-MOST: Final = 14 * len(FAMILIES)
-"""Number of scenes in which a mistake is looked for: as many of each family, however many."""
-FAMILIES_AS_THEY_ARE: Final = "families"
-AWKWARD_FAMILIES: Final = "awkward families"
-THE_SMALL_SCOPE: Final = "the small scope"
-"""Where a mistake is hunted; or by a question, "questions/..."."""
-
-SMALL_SCOPE: Final = 1000
-"""Number of scenes of the small scope in which a mistake is looked for."""
-
-EASY: Final = 5
-"""Number of cases of a question that take about as long as a scene of a family."""
-
-WIDTH: Final = 50
-"""Width of the column of the names of mistakes."""
+__all__ = ["PLANTED", "Mistake"]
 
 RADIUS_IS_MASKED: Final = (
     "A radius r is too small by less than 2 U r. From boxes [b, e] of the differences of two "
@@ -245,13 +218,11 @@ class Mistake:
     Attributes:
         kind: the kind of the mistake, a sentence.
         change: the change of one function by which it is made.
-        hunted: where it is hunted.
         masked: why no answer can show it, if none can.
     """
 
     kind: str
     change: Edit | Replacement
-    hunted: str = FAMILIES_AS_THEY_ARE
     masked: str = ""
 
     def made(self) -> AbstractContextManager[object]:
@@ -283,7 +254,6 @@ PLANTED: Final[dict[str, Mistake]] = {
     "even zeros of copies ignored": Mistake(
         "The same, in a case that hardly shows in families.",
         Replacement(Certifier, "_exact_orientation", _even_zeros_of_copies),
-        THE_SMALL_SCOPE,
     ),
     "contact proof skipped": Mistake(
         "A necessary test is left out.", Replacement(engine, "may_touch", _always(False))
@@ -382,22 +352,18 @@ PLANTED: Final[dict[str, Mistake]] = {
     "single times left out": Mistake(
         "A closed interval that is a single time is taken for none.",
         Edit(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
-        "questions/below",
     ),
     "a term of an error forgotten": Mistake(
         "One of the terms of a bound is left out, which only large edges show.",
         Edit(near_features, "_may_be_least", "far * off_edge + ", ""),
-        "questions/moving",
     ),
     "times before 0 forgotten": Mistake(
         "The largest size of a time is taken to be that of the end of its span.",
         Edit(PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"),
-        "questions/convoy",
     ),
     "a radius rounded down": Mistake(
         "A bound is rounded to the wrong side.",
         Edit(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
-        "questions/convoy",
         RADIUS_IS_MASKED,
     ),
     "vertices of swapped bodies not swapped": Mistake(
@@ -412,7 +378,6 @@ PLANTED: Final[dict[str, Mistake]] = {
     "places at the start off by less": Mistake(
         "The constant of a bound is too small, which far bodies show alone.",
         Edit(turning, "_at_start", "64.0 * U", "0.5 * U"),
-        "questions/batch",
     ),
     "an isolated angle across not certified, mirrored": Mistake(
         "Of two mirrored branches, one forgets a place that changes.",
@@ -435,28 +400,23 @@ PLANTED: Final[dict[str, Mistake]] = {
             "nearer_copy(certifier, vp, va, vb)",
             "nearer_copy(certifier, vp, vb, va)",
         ),
-        THE_SMALL_SCOPE,
         COPIES_ARE_MASKED,
     ),
     "walls in line block the way": Mistake(
         "A path along a wall, or through its end, counts as one across it.",
         Edit(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
-        "questions/paths",
     ),
     "hits at the goal missed": Mistake(
         "The end of a closed segment is taken to be excluded.",
         Edit(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
-        "questions/places",
     ),
     "rounded constants taken for exact": Mistake(
         "Rounded numbers are taken for exact ones, where in most scenes they are.",
         Edit(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
-        AWKWARD_FAMILIES,
     ),
     "no contact for a double too long": Mistake(
         "A bound is rounded to the wrong side, where only the last double shows it.",
         Edit(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
-        "questions/budgets",
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
@@ -466,12 +426,10 @@ PLANTED: Final[dict[str, Mistake]] = {
             "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
             "if self._deadline is not None and clock.monotonic() - 3600 >",
         ),
-        "questions/budgets",
     ),
     "the rounding of a square forgotten": Mistake(
         "The last operation of a formula is not in the bound of its error.",
         Edit(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
-        "questions/arrays",
         SQUARES_ARE_MASKED,
     ),
     "numbers packed for another width": Mistake(
@@ -480,114 +438,3 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
 }
 """The mistakes by name."""
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """How a planted bug was found.
-
-    Attributes:
-        bug: its name.
-        failure: the failure found; None if there was none.
-        place: the family of the scene, the question or the small scope.
-        cases: number of cases checked.
-        seconds: processor time.
-    """
-
-    bug: str
-    failure: Failure | None
-    place: str
-    cases: int
-    seconds: float
-
-    @property
-    def is_as_expected(self) -> bool:
-        """True if it was found; or if it was not, and no answer can show it."""
-        return (self.failure is None) == bool(PLANTED[self.bug].masked)
-
-
-def hunt(
-    bug: str,
-    most: int = MOST,
-    witnesses: Sequence[str] = WITNESSES,
-    seed: int = 0,
-) -> Found:
-    """Look for a planted bug where it is hunted, in at most ``most`` scenes of families.
-
-    In the small scope there are `SMALL_SCOPE` scenes; a question is asked `EASY` times as often.
-
-    Raises:
-        InputError: if the package is compiled: compiled functions cannot be patched.
-    """
-    if not filters.__file__.endswith(".py"):
-        raise InputError("mistakes are planted in the plain package only: make plain")
-    began = clock.process_time()
-    mistake = PLANTED[bug]
-    if mistake.hunted == THE_SMALL_SCOPE:
-        cases = _in_small_scope(mistake)
-    elif mistake.hunted.startswith(QUESTION):
-        cases = _by_question(mistake, most if mistake.masked else EASY * most, seed)
-    else:
-        cases = _in_families(mistake, most, witnesses, seed)
-    checked = 0
-    for place, failure in cases:
-        checked += 1
-        if failure is not None:
-            return Found(bug, failure, place, checked, clock.process_time() - began)
-    return Found(bug, None, "", checked, clock.process_time() - began)
-
-
-Cases: TypeAlias = "Iterator[tuple[str, Failure | None]]"
-"""Where a case is from, and its failure if it has one."""
-
-
-def _in_families(mistake: Mistake, most: int, witnesses: Sequence[str], seed: int) -> Cases:
-    """Check scenes of the families, taken in turn, by witnesses."""
-    families = list(FAMILIES)
-    for number in range(most):
-        family, turn = families[number % len(families)], seed + number // len(families)
-        scene = generate(family, turn)
-        if mistake.hunted == AWKWARD_FAMILIES:
-            scene = awkward(scene, Random(f"{family} {turn}"))
-            family += SUFFIX
-        failure: Failure | None = None
-        with mistake.made():
-            for witness in witnesses:
-                failure = failure_of(witness, scene, number, patience=5.0)
-                if failure is not None:
-                    break
-        yield family, failure
-
-
-def _in_small_scope(mistake: Mistake) -> Cases:
-    for number in range(SMALL_SCOPE):
-        with mistake.made():
-            seen = look(planned(number))
-        faults = [answer for answer in seen.answers if answer.fault is not None]
-        failure = None
-        for answer in faults[:1]:
-            failure = Failure(answer.method, answer.fault or "", answer.fault or "", "")
-        yield THE_SMALL_SCOPE, failure
-
-
-def _by_question(mistake: Mistake, most: int, seed: int) -> Cases:
-    """Ask the question of a mistake, which is compared with its definition."""
-    question = mistake.hunted.removeprefix(QUESTION)
-    for number in range(most):
-        with mistake.made():
-            asked = ask(question, seed, number, lambda _: None, None, KEPT)
-        failure = None
-        for finding in asked.findings[:1]:
-            failure = Failure("question", finding.signature, finding.why, "")
-        yield mistake.hunted, failure
-
-
-def table(found: Sequence[Found]) -> list[str]:
-    """One line for each planted bug."""
-    lines = [f"{'planted bug':{WIDTH}}{'cases':>7}{'seconds':>9}  found by"]
-    for f in found:
-        by = "masked" if PLANTED[f.bug].masked else "NOTHING"
-        if f.failure is not None:
-            by = f"{f.failure.witness}, {f.place}: {f.failure.signature}"
-        lines.append(f"{f.bug:{WIDTH}}{f.cases:>7}{f.seconds:>9.1f}  {by}")
-    return lines
