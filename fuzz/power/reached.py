@@ -8,6 +8,7 @@ from pathlib import Path
 
 import coverage
 
+import exactpt
 from exactpt.errors import InputError
 from fuzz.laws.runner import cases_of, count_of, look
 from fuzz.power.edits import Lines
@@ -82,7 +83,10 @@ def record(laws: Sequence[str], path: Path, tier: str = "full") -> None:
         path: the database, which is replaced.
         tier: the tier, of `fuzz.laws.runner.TIERS`.
     """
-    measured = coverage.Coverage(data_file=str(path), branch=True, source_pkgs=["exactpt"])
+    package = str(Path(exactpt.__file__).parent / "*")
+    measured = coverage.Coverage(
+        data_file=str(path), branch=True, include=[package], config_file=False
+    )
     measured.erase()
     measured.start()
     for law in laws:
