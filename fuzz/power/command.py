@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
@@ -17,7 +18,7 @@ from exactpt.errors import InputError
 from fuzz.laws.runner import runnable
 from fuzz.laws.scenes import made
 from fuzz.laws.table import LAWS
-from fuzz.options import FAILED, HELP
+from fuzz.options import FAILED, HELP, INTERRUPTED
 from fuzz.power.hunt import Found, TestHunt, by_laws, refuse_compiled
 from fuzz.power.mistakes import Mistake, of_mutant, planted
 from fuzz.power.mutants import PARTS, mutants
@@ -154,15 +155,21 @@ def power(
     rows: list[Row] = []
 
     def hunt(hunt_by_tests: Hunt | None) -> None:
-        for row in _rows(mistakes, hunt_by_laws if is_by_laws else None, hunt_by_tests, results):
-            rows.append(row)
-            click.echo(row.text)
+        laws_too = hunt_by_laws if is_by_laws else None
+        with suppress(KeyboardInterrupt):
+            for row in _rows(mistakes, laws_too, hunt_by_tests, results):
+                rows.append(row)
+                click.echo(row.text)
 
     if tests:
         _collected(tests, reached, seconds, hunt)
     else:
         hunt(None)
     click.echo("\n".join(_summary(rows)))
+    if len(rows) < len(mistakes):
+        goes_on = "" if results is None else "; the same command goes on"
+        click.echo(f"interrupted{goes_on}", err=True)
+        sys.exit(INTERRUPTED)
     sys.exit(FAILED if any(row.has_escaped for row in rows) else 0)
 
 
