@@ -30,8 +30,10 @@ from fuzz.laws.drawn import (
 from fuzz.laws.enclosed import bounds_contain_the_truth
 from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_written
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
+from fuzz.laws.irrational import irrational_tiling_is_that_just_after
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
+from fuzz.laws.order import distances_are_ordered_as_their_values
 from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
@@ -91,6 +93,12 @@ LAWS: Final[dict[str, Law]] = {
     "tiling/filters": Law(
         filters_decide_exactly, (*TILED, "family+nudged", "tiny/fractions"), share=4
     ),
+    "tiling/irrational": Law(
+        irrational_tiling_is_that_just_after,
+        ("curved", "points", "curved+awkward", "turning"),
+        share=0.5,
+        most=40,
+    ),
     "contacts/reference": Law(
         as_defined("contacts"),
         ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),
@@ -118,6 +126,11 @@ LAWS: Final[dict[str, Law]] = {
         clearance_is_the_distance,
         (*MOVING, "family", "pair+nudged", "tiny/distant"),
         most=60,
+    ),
+    "distance/order": Law(
+        distances_are_ordered_as_their_values,
+        ("tiny/rounded", "radii", "tiny/distant", "radii+awkward"),
+        share=0.5,
     ),
     "new contact/reference": Law(
         as_defined("new contact"), ("tiny/touching", "tiny/meeting"), most=14
