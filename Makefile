@@ -22,7 +22,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-docs test-tools test-slow test-random test-lowest test-exact turn old-engine night night-tests test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-docs test-tools test-slow test-random test-lowest test-exact turn old-engine compiled-copy night night-tests test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -93,13 +93,17 @@ old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of th
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
 	$(BIN)/python -m fuzz.old_engine
 
-night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the laws (half of the time for a seventh of them, that of the weekday), the fuzzer with all witnesses, the small scope, planted mistakes
+compiled-copy: $(VENV)/developing ## a compiled copy of this checkout in .compiled, for the law compiled/plain
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
+	$(BIN)/python -m fuzz.compiled_copy
+
+night: $(VENV)/developing cgal_check/build/cgal_check old-engine compiled-copy ## what runs each night, by the seed of the DATE: the laws (half of the time for a seventh of them, that of the weekday), the fuzzer with all witnesses, the small scope, planted mistakes
 	status=0; \
 	$(BIN)/python -m fuzz run --seed $(SEED) --seconds $$((120 * $(MINUTES))) --weekday $$(date -d $(DATE) +%u) || status=1; \
 	for what in '' '--witness old' 'small-scope --today'; do \
 	    $(BIN)/python -m fuzz $$what --seed $(SEED) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
 	done; \
-	$(BIN)/python -m fuzz planted || status=1; \
+	$(BIN)/python -m fuzz power || status=1; \
 	exit $$status
 
 night-tests: $(VENV)/developing cgal_check/build/cgal_check ## the other tests of each night: test-docs, test-tools, test-slow and test-random
@@ -195,4 +199,4 @@ $(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
 	@touch $@
 
 clean: ## remove what was built (not .venv)
-	rm -rf build dist .pyodide .old-engine cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf build dist .pyodide .old-engine .compiled cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from fuzz.laws.agreement import as_defined, two_ways_agree
+from fuzz.laws.agreement import as_defined, two_ways_agree, way_is_as_defined
 from fuzz.laws.choices import choices_are_each_pair_alone
 from fuzz.laws.confirmed import (
     contacts_are_confirmed,
@@ -30,14 +30,17 @@ from fuzz.laws.drawn import (
     filters_say_what_is_true,
     hostile_files_are_refused,
     queries_in_space_are_as_defined,
+    small_scope_is_as_defined,
     stated_errors_are_kept,
     touching_rings_are_valid_or_not,
 )
 from fuzz.laws.enclosed import bounds_contain_the_truth
 from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_written
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
+from fuzz.laws.irrational import irrational_tiling_is_that_just_after
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
+from fuzz.laws.order import distances_are_ordered_as_their_values
 from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
@@ -51,9 +54,16 @@ from fuzz.laws.together import (
     array_queries_are_first_contacts,
     arrays_are_single_calls,
     batch_is_single_calls,
+    rounded_pairs_in_arrays,
+    turning_pairs_in_a_batch,
 )
 from fuzz.laws.walks import relative_hulls_are_taut, shortened_walks_are_taut
-from fuzz.laws.witnessed import cgal_accepts_runs, definitions_agree, old_engine_agrees
+from fuzz.laws.witnessed import (
+    cgal_accepts_runs,
+    compiled_is_plain,
+    definitions_agree,
+    old_engine_agrees,
+)
 
 __all__ = ["LAWS"]
 
@@ -90,6 +100,12 @@ LAWS: Final[dict[str, Law]] = {
     "tiling/filters": Law(
         filters_decide_exactly, (*TILED, "family+nudged", "tiny/fractions"), share=4
     ),
+    "tiling/irrational": Law(
+        irrational_tiling_is_that_just_after,
+        ("curved", "points", "curved+awkward", "turning"),
+        share=0.5,
+        most=40,
+    ),
     "contacts/reference": Law(
         as_defined("contacts"),
         ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),
@@ -117,6 +133,11 @@ LAWS: Final[dict[str, Law]] = {
         clearance_is_the_distance,
         (*MOVING, "family", "pair+nudged", "tiny/distant"),
         most=60,
+    ),
+    "distance/order": Law(
+        distances_are_ordered_as_their_values,
+        ("tiny/rounded", "radii", "tiny/distant", "radii+awkward"),
+        share=0.5,
     ),
     "new contact/reference": Law(
         as_defined("new contact"), ("tiny/touching", "tiny/meeting"), most=14
@@ -201,10 +222,13 @@ LAWS: Final[dict[str, Law]] = {
         ("pair", "tiny/pair", "pair+rounded", "tiny/pair+rounded", "family/chains_on_grid"),
         most=60,
     ),
-    "arrays/adversary": Law(as_asked("arrays"), ("own",), share=0.5),
-    "batch/adversary": Law(as_asked("batch"), ("own",), share=1.5),
-    "first contact/small scope": Law(as_asked("small-scope"), ("own",)),
-    "first contact/far": Law(as_asked("convoy"), ("own",)),
+    "arrays/adversary": Law(rounded_pairs_in_arrays, ("own",), share=0.5),
+    "batch/adversary": Law(turning_pairs_in_a_batch, ("own",), share=1.5),
+    "first contact/small scope": Law(small_scope_is_as_defined, ("own",)),
+    "first contact/far": Law(
+        way_is_as_defined("first contact", "pairs"),
+        ("far/convoy", "far/relay", "far/convoy", "far/relay+awkward"),
+    ),
     "distance/moving": Law(as_asked("moving"), ("own",), share=3),
     "budget/looks": Law(as_asked("budgets"), ("own",)),
     "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
@@ -263,6 +287,12 @@ LAWS: Final[dict[str, Law]] = {
         ("family", "pair+nudged", "tiny/pair+awkward"),
         most=60,
         needs="old engine",
+    ),
+    "compiled/plain": Law(
+        compiled_is_plain,
+        ("family", "tiny/pair+awkward", "family+nudged", "scope", "turning+awkward"),
+        most=60,
+        needs="compiled copy",
     ),
     **{
         f"cost/{name}": Law(

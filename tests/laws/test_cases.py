@@ -1,7 +1,7 @@
 """Kept cases under every law that suits them: one test for each file of tests/cases.
 
-In tiers other than "full" a case is checked by the law that it once broke, and by some others, which
-its name decides. A law that says nothing about a scene leaves it out by itself.
+In tiers other than "full" a case is checked by the law that it once broke, and by some others,
+which its name decides. A law that says nothing about a scene leaves it out by itself.
 """
 
 from zlib import crc32
