@@ -200,8 +200,8 @@ class CgalCheck:
             Relation(do_intersect=True, do_overlap=False, squared=Fraction(0, 1))
 
         Raises:
-            InputError: if a body has not as many points as vertices or its parts have not each vertex
-                once, or if a ring is not simple.
+            InputError: if the points or the parts do not fit the shape of a body, or a ring is not
+                simple. Whether rings of one body cross is not examined.
         """
         answer = _claimed(self._ask(bodies_request("pair", [first, second])))
         said = dict(zip(answer[::2], answer[1::2], strict=True))
@@ -230,8 +230,7 @@ class CgalCheck:
             Verdict(ok=False, reason='an area of 0 is missing, of 3 is too much', stats={})
 
         Raises:
-            InputError: if a body has not as many points as vertices, or its parts have not each vertex
-                once.
+            InputError: if the points or the parts do not fit the shape of a body.
         """
         return _verdict(self._ask(bodies_request("union", [*bodies, union])))
 

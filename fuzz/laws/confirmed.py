@@ -54,11 +54,14 @@ FEATURES: Final = 40
 NEAR: Final = Fraction(1, 2**64)
 """A time next to a rational time of a contact is so far from it, in parts of the time span."""
 
+REJECTED: Final = "cgal_check: "
+"""Beginning of the message about a body that CGAL rejects; that about a bad request is another."""
+
 Pair: TypeAlias = frozenset[str]
 PointLike: TypeAlias = Sequence[Rational]
 
 
-class _NotSimpleError(Exception):
+class _NotValidError(Exception):
     """CGAL has no answer: a body that deforms has crossed or touched itself."""
 
 
@@ -69,13 +72,40 @@ def _relation(a: PlacedBody, b: PlacedBody) -> Relation:
     try:
         return witness().relate(a, b)
     except InputError as error:
-        if "is not simple" in str(error):
-            raise _NotSimpleError from None
+        if str(error).startswith(REJECTED):
+            raise _NotValidError from None
         raise
 
 
 def _relation_at(a: Body, b: Body, time: Fraction) -> Relation:
-    return _relation(PlacedBody.of_body(a, time), PlacedBody.of_body(b, time))
+    placed, other = PlacedBody.of_body(a, time), PlacedBody.of_body(b, time)
+    _check_rings(placed)
+    _check_rings(other)
+    return _relation(placed, other)
+
+
+def _check_rings(body: PlacedBody) -> None:
+    """Raise unless the holes of a body are in its outlines, and no holes or parts overlap."""
+    for rings in body.shape.parts:
+        outline, *holes = (_placed([body.points[i] for i in ring]) for ring in rings)
+        _check_apart(holes)
+        if not witness().check_union([outline, *holes], outline).ok:
+            raise _NotValidError
+    _check_apart([_part(body, rings) for rings in body.shape.parts])
+
+
+def _part(body: PlacedBody, rings: Sequence[Sequence[int]]) -> PlacedBody:
+    """Return a part of a body, with its holes, as a body of its own."""
+    points = [body.points[i] for ring in rings for i in ring]
+    numbers = iter(range(len(points)))
+    renumbered = [[next(numbers) for _ in ring] for ring in rings]
+    return PlacedBody(BodyShape("part", len(points), parts=[renumbered]), points)
+
+
+def _check_apart(bodies: list[PlacedBody]) -> None:
+    """Raise if the interiors of two bodies overlap."""
+    if any(_relation(one, other).do_overlap for one, other in combinations(bodies, 2)):
+        raise _NotValidError
 
 
 def _touch(a: Body, b: Body, time: Fraction) -> bool:
@@ -130,9 +160,9 @@ def first_contact_is_confirmed(scene: Scene, random: Random) -> str:
         else:
             _check_signs_at(scene, contact)
         followed = _check_after(scene, contact, random)
-    except _NotSimpleError:
+    except _NotValidError:
         refuse_unless(not scene.has_radius)  # one with a radius may touch itself before
-        raise Difference("not simple", f"a body, not after {contact}") from None
+        raise Difference("not valid", f"a body, not after {contact}") from None
     return f"{contact.kind}, {'' if is_rational else 'ir'}rational, {followed}"
 
 
@@ -224,8 +254,8 @@ def _check_after(scene: Scene, contact: Contact, random: Random) -> str:
             try:
                 if _touch(a, b, time) != is_in:
                     raise Difference("after the contact", f"{a}, {b} at {time}, not {is_in}")
-            except _NotSimpleError:
-                followed.add("not simple after")
+            except _NotValidError:
+                followed.add("not valid after")
             else:
                 followed.add("in contact after" if is_in else "apart after")
     return ", ".join(sorted(followed)) or "nothing after"
@@ -258,7 +288,7 @@ def contacts_are_confirmed(scene: Scene, random: Random) -> str:
         expected = any(interval.start <= time <= interval.end for interval in intervals)
         try:
             found = _touch(scene.body(first), scene.body(second), time)
-        except _NotSimpleError:
+        except _NotValidError:
             continue
         said += 1
         if found != expected:
@@ -286,7 +316,7 @@ def distances_are_confirmed(scene: Scene, random: Random) -> str:
     assert isinstance(found, Nearest)  # noqa: S101 - as `plain` documents
     try:
         relation = _relation_at(a, b, time)
-    except _NotSimpleError:
+    except _NotValidError:
         raise LeftOutError from None
     check_equal("squared distance", found.core_squared, relation.squared)
     check_equal("distance 0", found.core_squared == 0, relation.do_intersect)
@@ -355,7 +385,7 @@ def _check_relative_hull(space: FreeSpace, name: str, bodies: dict[str, PlacedBo
         return "convex hulls"
     try:
         inside = [other.shape.name for other in others if _relation(hull, other).do_overlap]
-    except _NotSimpleError:
+    except _NotValidError:
         return "loops that touch themselves"
     if body.shape.closed:
         _check_union("body not in its relative hull", [body, hull], hull)
