@@ -223,7 +223,7 @@ LAWS: Final[dict[str, Law]] = {
         most=60,
     ),
     "arrays/adversary": Law(rounded_pairs_in_arrays, ("own",), share=0.5),
-    "batch/adversary": Law(turning_pairs_in_a_batch, ("own",), share=1.5),
+    "batch/adversary": Law(turning_pairs_in_a_batch, ("own",), share=3),
     "first contact/small scope": Law(small_scope_is_as_defined, ("own",)),
     "first contact/far": Law(
         way_is_as_defined("first contact", "pairs"),
