@@ -6,6 +6,7 @@ from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree
 from fuzz.laws.choices import choices_are_each_pair_alone
+from fuzz.laws.contacts import bodies_touch_in_their_intervals
 from fuzz.laws.costs import (
     bystander_costs_nothing,
     later_end,
@@ -14,7 +15,7 @@ from fuzz.laws.costs import (
     one_far_body,
     one_fast_body,
 )
-from fuzz.laws.distances import clearance_is_the_distance
+from fuzz.laws.distances import clearance_is_the_distance, surroundings_are_of_each_pair
 from fuzz.laws.drawn import (
     as_asked,
     curves_are_within_their_errors,
@@ -89,13 +90,27 @@ LAWS: Final[dict[str, Law]] = {
         share=1.5,
         most=14,
     ),
+    "contacts/methods": Law(
+        two_ways_agree("contacts"),
+        (*FAMILY, "pair+awkward", "radii", "rings", "tiny/rings", "whole/pieces"),
+        most=60,
+    ),
+    "contacts/times": Law(
+        bodies_touch_in_their_intervals,
+        ("whole", *FAMILY, *MOVING, "radii", "rings", "pair+awkward+nudged"),
+    ),
     "pairs/images": Law(
         pairs_of_image, ("family", *MOVING, "pair", "tiny/distant", "pair+nudged"), share=1.5
     ),
     "first within/reference": Law(
         as_defined("first within"),
-        ("tiny/distant", "tiny/crowded", "tiny/rounded", "tiny/distant+nudged"),
+        ("tiny/distant", "tiny/crowded", "tiny/rounded", "tiny/distant+nudged", "tiny/touching"),
         most=14,
+    ),
+    "first within/methods": Law(
+        two_ways_agree("first within"),
+        (*FAMILY, *MOVING, "crowd", "radii", "rings", "pair+awkward+nudged"),
+        most=60,
     ),
     "distance/reference": Law(
         as_defined("distance"),
@@ -104,15 +119,46 @@ LAWS: Final[dict[str, Law]] = {
         most=40,
     ),
     "distance/below": Law(
-        as_defined("below"), ("tiny/distant", "tiny/pair", "tiny/distant+awkward"), most=10
+        as_defined("below"),
+        ("tiny/distant", "tiny/pair", "tiny/rounded", "tiny/distant+awkward"),
+        most=10,
     ),
     "distance/clearance": Law(
         clearance_is_the_distance,
-        (*MOVING, "family", "pair+nudged", "tiny/distant"),
+        (
+            *MOVING,
+            "turning+awkward",
+            "deforming+awkward",
+            "family",
+            "pair+nudged",
+            "tiny/distant",
+            "tiny/rounded",
+            "radii",
+            "tiny/pair+awkward",
+        ),
+        share=4,
         most=60,
     ),
+    "distance/least": Law(
+        as_defined("least distance"),
+        ("tiny/distant", "tiny/rounded", "tiny/pair+awkward", "tiny/distant+nudged", "pair"),
+        most=10,
+    ),
+    "distance/surroundings": Law(
+        surroundings_are_of_each_pair,
+        ("tiny/crowded", "tiny/fractions", "family", "tiny/crowded+awkward", "radii"),
+        most=30,
+    ),
     "new contact/reference": Law(
-        as_defined("new contact"), ("tiny/touching", "tiny/meeting"), most=14
+        as_defined("new contact"),
+        ("tiny/touching", "tiny/meeting", "tiny/rounded", "tiny/rings", "tiny/touching+awkward"),
+        most=18,
+    ),
+    "new contact/methods": Law(
+        two_ways_agree("new contact"),
+        (*FAMILY, *MOVING, "radii", "rings", "tiny/touching+awkward", "pair+nudged"),
+        share=0.5,
+        most=60,
     ),
     "space/places": Law(
         places_are_as_defined,

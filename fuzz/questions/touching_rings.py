@@ -189,8 +189,8 @@ def _differences(random: Random, scene: Scene) -> Iterator[str]:
     alone = Scene([b], scene.time)
     if first_contact(alone) is not None or (contact is not None and contact.kind == "self"):
         yield "a contact of a body with itself"
-    # The definition of new contacts knows no radii, and takes long for motions of many pieces.
-    if not (scene.has_radius or _is_approximated(a) or _is_approximated(b)):
+    # The definition of new contacts takes long for motions of many pieces.
+    if not (_is_approximated(a) or _is_approximated(b)):
         new, new_expected = first_contact(scene, after_start=True), new_contact(a, b, scene.time)
         if (None if new is None else new.time) != new_expected:
             yield f"after_start: {new}, not {new_expected}"
