@@ -23,9 +23,9 @@ Found: TypeAlias = tuple[AlgebraicNumber, set[Pair]] | None
 
 def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:
     """A contact of chosen pairs is the first of these pairs, each taken by itself."""
-    refuse_unless(len(scene.bodies) >= 2)
     names = [body.name for body in scene.bodies]
-    every = {frozenset(pair) for pair in combinations(names, 2)}
+    every = {frozenset({a.name, b.name}) for a, b in reference.counted_pairs(scene)}
+    refuse_unless(every)
     start = scene.exact_start
     kind = random.choice(["since", "ignoring", "between", "planner"])
     if kind == "since":
@@ -40,7 +40,7 @@ def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:
         ]
         chosen = every - {frozenset(pair) for group in groups for pair in combinations(group, 2)}
         of_scene = random.randint(0, len(groups))
-        grouped = Scene(scene.bodies, scene.time, ignoring=groups[:of_scene])
+        grouped = Scene(scene.bodies, scene.time, ignoring=[*scene.ignoring, *groups[:of_scene]])
         contact = exactpt.first_contact(grouped, ignoring=groups[of_scene:])
     elif kind == "between":
         chosen = set(random.sample(sorted(every, key=sorted), random.randint(1, len(every))))

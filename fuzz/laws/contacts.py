@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from random import Random
 from typing import Final
 
@@ -32,7 +31,7 @@ PARTS: Final = (QQ(1, 10), QQ(1, 2**20), QQ(1, 2**60))
 
 def bodies_touch_in_their_intervals(scene: Scene, random: Random) -> str:
     """Two bodies touch at a time if it is in one of their intervals, and at no other time."""
-    pairs = list(combinations(scene.bodies, 2))
+    pairs = reference.counted_pairs(scene)
     refuse_unless(pairs)
     found: dict[tuple[str, str], list[ContactInterval]] = {}
     for interval in exactpt.contacts(scene):

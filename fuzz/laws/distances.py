@@ -112,9 +112,11 @@ def _check_piece(scene: Scene, gap: Clearance, piece: ClearancePiece, time: QQ) 
 
 def surroundings_are_of_each_pair(scene: Scene, random: Random) -> str:
     """What is near a body, and when, follows from its clearance to each of the others alone."""
-    refuse_unless(len(scene.bodies) >= 2)
-    name = random.choice([body.name for body in scene.bodies])
-    others = [body.name for body in scene.bodies if body.name != name]
+    pairs = [{a.name, b.name} for a, b in reference.counted_pairs(scene)]
+    refuse_unless(pairs)
+    names = [body.name for body in scene.bodies]
+    name = random.choice([name for name in names if any(name in pair for pair in pairs)])
+    others = [other for other in names if {name, other} in pairs]
     around = exactpt.clearance(scene, name)
     alone = {other: exactpt.clearance(scene, name, other) for other in others}
     check_equal("others", around.others, tuple(others))

@@ -90,14 +90,20 @@ def a_time(scene: Scene, random: Random, steps: int = 8) -> QQ:
 
 
 def two_names(scene: Scene, random: Random) -> tuple[str, str]:
-    """Return the names of two bodies of a scene.
+    """Return the names of two bodies of a scene that do not ignore each other.
 
     Raises:
-        LeftOutError: if there is only one.
+        LeftOutError: if no two bodies count.
     """
-    refuse_unless(len(scene.bodies) >= 2)
-    first, second = random.sample([body.name for body in scene.bodies], 2)
-    return first, second
+    pairs = _counted(scene)
+    refuse_unless(pairs)
+    first, second = random.choice(pairs)
+    return random.choice([(first, second), (second, first)])
+
+
+def _counted(scene: Scene) -> list[tuple[str, str]]:
+    """Return the names of any two bodies of a scene that do not ignore each other."""
+    return [(a.name, b.name) for a, b in reference.counted_pairs(scene)]
 
 
 # The first contact
@@ -159,8 +165,9 @@ def _of_a_pickle(scene: Scene, _: Asked) -> Answer:
 
 def _between_all_pairs(scene: Scene, _: Asked) -> Answer:
     refuse_unless(not any(body.has_rings or body.keyframes for body in scene.bodies))
-    names = [body.name for body in scene.bodies]
-    contact = exactpt.first_contact(scene, between=list(combinations(names, 2)))
+    pairs = _counted(scene)
+    refuse_unless(pairs)
+    contact = exactpt.first_contact(scene, between=pairs)
     whole = exactpt.first_contact(scene)
     if whole is not None and any(pair.body == pair.other for pair in whole.pairs):
         raise LeftOutError  # a body touches itself, which no pair of two bodies does
@@ -205,10 +212,6 @@ FIRST_CONTACT: Final = Question(
 # The intervals in which bodies touch
 
 
-def _all_pairs(scene: Scene) -> list[tuple[str, str]]:
-    return list(combinations([body.name for body in scene.bodies], 2))
-
-
 def _by_pair(intervals: Iterable[ContactInterval | CloseInterval]) -> Answer:
     found: dict[tuple[str, str], list[tuple[AlgebraicNumber, AlgebraicNumber]]] = {}
     for interval in intervals:
@@ -219,28 +222,28 @@ def _by_pair(intervals: Iterable[ContactInterval | CloseInterval]) -> Answer:
 def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
         interval
-        for a, b in combinations(scene.bodies, 2)
-        for interval in exactpt.contact_intervals(scene, a.name, b.name)
+        for a, b in _counted(scene)
+        for interval in exactpt.contact_intervals(scene, a, b)
     )
 
 
 def _intervals_named_backwards(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
         interval
-        for a, b in combinations(scene.bodies, 2)
-        for interval in exactpt.contact_intervals(scene, b.name, a.name)
+        for a, b in _counted(scene)
+        for interval in exactpt.contact_intervals(scene, b, a)
     )
 
 
 def _intervals_between_all(scene: Scene, _: Asked) -> Answer:
-    return _by_pair(exactpt.contacts(scene, between=_all_pairs(scene)))
+    return _by_pair(exactpt.contacts(scene, between=_counted(scene)))
 
 
 def _intervals_at_no_distance(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
         interval
-        for a, b in combinations(scene.bodies, 2)
-        for interval in exactpt.clearance(scene, a.name, b.name).below(0)
+        for a, b in _counted(scene)
+        for interval in exactpt.clearance(scene, a, b).below(0)
     )
 
 
@@ -256,7 +259,7 @@ def defined_intervals(
 
 def _defined_contacts(scene: Scene, _: Asked) -> Answer:
     found = {}
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in reference.counted_pairs(scene):
         intervals = defined_intervals(scene, a, b)
         if intervals:
             found[a.name, b.name] = intervals
@@ -297,7 +300,7 @@ def _a_squared_distance(scene: Scene, random: Random) -> QQ:
         return (_size(scene) * QQ(random.randint(0, 30), 30)) ** 2
     if kind == "extreme":
         return random.choice(EXTREME) ** 2
-    if kind == "at a time" and not scene.has_radius and len(scene.bodies) >= 2:
+    if kind == "at a time" and not scene.has_radius and _counted(scene):
         names = two_names(scene, random)
         there = exactpt.distance(scene, *names, at=fraction(a_time(scene, random)))
         return rational(there.squared)
@@ -326,14 +329,14 @@ def _first_within_distance(scene: Scene, squared: QQ) -> Answer:
 
 
 def _first_within_between(scene: Scene, squared: QQ) -> Answer:
-    pairs = _all_pairs(scene)
+    pairs = _counted(scene)
     found = exactpt.first_within(scene, distance_squared=fraction(squared), between=pairs)
     return _as_approach(found)
 
 
 def _first_within_of_two(scene: Scene, squared: QQ) -> Answer:
     times = []
-    for a, b in _all_pairs(scene):
+    for a, b in _counted(scene):
         time = exactpt.first_within(scene, a, b, distance_squared=fraction(squared))
         assert not isinstance(time, exactpt.Approach)  # noqa: S101 - of all bodies alone
         times.append((time, (a, b)))
@@ -343,7 +346,7 @@ def _first_within_of_two(scene: Scene, squared: QQ) -> Answer:
 def _first_below(scene: Scene, squared: QQ) -> Answer:
     distance = fraction(_root_of(squared))
     times = []
-    for a, b in _all_pairs(scene):
+    for a, b in _counted(scene):
         intervals = exactpt.clearance(scene, a, b).below(distance)
         times.append((intervals[0].start if intervals else None, (a, b)))
     return _least(times)
@@ -372,7 +375,7 @@ def _least(times: Iterable[tuple[AlgebraicNumber | None, tuple[str, str]]]) -> A
 
 def _defined_within(scene: Scene, squared: QQ) -> Answer:
     times = []
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in reference.counted_pairs(scene):
         radii = a.exact_radius + b.exact_radius
         of_cores = (_root_of(squared) + radii) ** 2 if radii else squared
         time = reference.first_within(a, b, scene.time, of_cores)
@@ -460,12 +463,12 @@ def _first_of_all_if_not_at_start(scene: Scene, _: Asked) -> Answer:
 
 def _new_between_all(scene: Scene, _: Asked) -> Answer:
     refuse_unless(_no_body_touches_itself(scene))
-    return _new_contact(scene, between=_all_pairs(scene))
+    return _new_contact(scene, between=_counted(scene))
 
 
 def _new_of_two(scene: Scene, _: Asked) -> Answer:
     refuse_unless(_no_body_touches_itself(scene))
-    every = [_new_contact(scene, between=[pair]) for pair in _all_pairs(scene)]
+    every = [_new_contact(scene, between=[pair]) for pair in _counted(scene)]
     found = [value for value in every if value is not None]
     if not found:
         return None
