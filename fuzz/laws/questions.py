@@ -221,17 +221,13 @@ def _by_pair(intervals: Iterable[ContactInterval | CloseInterval]) -> Answer:
 
 def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
-        interval
-        for a, b in _counted(scene)
-        for interval in exactpt.contact_intervals(scene, a, b)
+        interval for a, b in _counted(scene) for interval in exactpt.contact_intervals(scene, a, b)
     )
 
 
 def _intervals_named_backwards(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
-        interval
-        for a, b in _counted(scene)
-        for interval in exactpt.contact_intervals(scene, b, a)
+        interval for a, b in _counted(scene) for interval in exactpt.contact_intervals(scene, b, a)
     )
 
 
@@ -241,9 +237,7 @@ def _intervals_between_all(scene: Scene, _: Asked) -> Answer:
 
 def _intervals_at_no_distance(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
-        interval
-        for a, b in _counted(scene)
-        for interval in exactpt.clearance(scene, a, b).below(0)
+        interval for a, b in _counted(scene) for interval in exactpt.clearance(scene, a, b).below(0)
     )
 
 

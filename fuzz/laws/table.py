@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree
-from fuzz.laws.choices import choices_are_each_pair_alone
+from fuzz.laws.choices import choices_are_each_pair_alone, chosen_contacts_are_part_of_all
 from fuzz.laws.contacts import bodies_touch_in_their_intervals
 from fuzz.laws.costs import (
     bystander_costs_nothing,
@@ -68,13 +68,13 @@ TILED: Final = ("whole", *FAMILY)
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
         as_defined("first contact", several=4),
-        (*TINY, *CLOSE, "tiny/rounded", "case"),
+        (*TINY, *CLOSE, "tiny/rounded", "tiny/scaled", "case"),
         share=4,
         most=30,
     ),
     "first contact/methods": Law(
         two_ways_agree("first contact"),
-        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far"),
+        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far", "planks", "tiny/scaled"),
         share=3,
     ),
     "first contact/images": Law(
@@ -92,12 +92,12 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "contacts/methods": Law(
         two_ways_agree("contacts"),
-        (*FAMILY, "pair+awkward", "radii", "rings", "tiny/rings", "whole/pieces"),
+        (*FAMILY, "pair+awkward", "radii", "rings", "tiny/rings", "walkers", "tiny/scaled"),
         most=60,
     ),
     "contacts/times": Law(
         bodies_touch_in_their_intervals,
-        ("whole", *FAMILY, *MOVING, "radii", "rings", "pair+awkward+nudged"),
+        ("whole", *FAMILY, *MOVING, "radii", "rings", "walkers", "planks", "wheels"),
     ),
     "pairs/images": Law(
         pairs_of_image, ("family", *MOVING, "pair", "tiny/distant", "pair+nudged"), share=1.5
@@ -109,7 +109,7 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "first within/methods": Law(
         two_ways_agree("first within"),
-        (*FAMILY, *MOVING, "crowd", "radii", "rings", "pair+awkward+nudged"),
+        (*FAMILY, *MOVING, "crowd", "radii", "rings", "tiny/scaled", "walkers", "wheels"),
         most=60,
     ),
     "distance/reference": Law(
@@ -134,7 +134,8 @@ LAWS: Final[dict[str, Law]] = {
             "tiny/distant",
             "tiny/rounded",
             "radii",
-            "tiny/pair+awkward",
+            "wheels",
+            "wheels",
         ),
         share=4,
         most=60,
@@ -151,7 +152,13 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "new contact/reference": Law(
         as_defined("new contact"),
-        ("tiny/touching", "tiny/meeting", "tiny/rounded", "tiny/rings", "tiny/touching+awkward"),
+        (
+            "tiny/touching",
+            "tiny/meeting",
+            "tiny/rounded",
+            "tiny/threads",
+            "tiny/touching+awkward",
+        ),
         most=18,
     ),
     "new contact/methods": Law(
@@ -214,6 +221,11 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "first contact/choices": Law(
         choices_are_each_pair_alone,
+        ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
+        most=24,
+    ),
+    "contacts/choices": Law(
+        chosen_contacts_are_part_of_all,
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
         most=24,
     ),
