@@ -23,6 +23,7 @@ from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
+from fuzz.questions.crossed import crossed_pair
 from fuzz.questions.pieces import planks, walkers
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scaled import scaled_pair, wheels
@@ -105,6 +106,7 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/rings": touching_pair,
     "tiny/threads": threaded,
     "tiny/scaled": scaled_pair,
+    "tiny/crossed": crossed_pair,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},

@@ -32,6 +32,7 @@ from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_writte
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
+from fuzz.laws.points import points_are_where_bodies_touch
 from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
@@ -76,6 +77,10 @@ LAWS: Final[dict[str, Law]] = {
         two_ways_agree("first contact"),
         (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far", "planks", "tiny/scaled"),
         share=3,
+    ),
+    "first contact/points": Law(
+        points_are_where_bodies_touch,
+        ("tiny/crossed", *FAMILY, *MOVING, "radii", "rings", "tiny/rounded", "tiny/scaled", "pair"),
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
