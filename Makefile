@@ -20,7 +20,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope old-engine night test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope old-engine compiled-copy night test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures accept docs package wheels publish lock check-cgal test-sanitized coq clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -85,12 +85,16 @@ old-engine: .old-engine/commit.txt ## the engine of version 0.2, a witness of th
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
 	$(BIN)/python -m fuzz.old_engine
 
+compiled-copy: $(VENV)/developing ## a compiled copy of this checkout in .compiled, for the law compiled/plain
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
+	$(BIN)/python -m fuzz.compiled_copy
+
 night: $(VENV)/developing cgal_check/build/cgal_check old-engine ## what runs each night, by the seed of the DATE: the fuzzer with all witnesses, the old engine, the laws, planted mistakes
 	status=0; for what in '' '--witness old'; do \
 	    $(BIN)/python -m fuzz $$what --seed $(subst -,,$(DATE)) --minutes $(MINUTES) --jobs $(JOBS) || status=1; \
 	done; \
 	$(BIN)/python -m fuzz run --seed $(subst -,,$(DATE)) --seconds $$((60 * $(MINUTES))) || status=1; \
-	$(BIN)/python -m fuzz planted || status=1; \
+	$(BIN)/python -m fuzz power || status=1; \
 	exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
@@ -181,4 +185,4 @@ $(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
 	@touch $@
 
 clean: ## remove what was built (not .venv)
-	rm -rf build dist .pyodide .old-engine cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf build dist .pyodide .old-engine .compiled cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

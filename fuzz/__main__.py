@@ -12,7 +12,7 @@ import click
 from exactpt.files import write_atomically
 from exactpt.testing.scenes import EVERY, SPINNING, families
 from exactpt.tiling.start import TILINGS
-from fuzz import battery, planted, soak
+from fuzz import battery, soak
 from fuzz.campaign import INTERRUPTS
 from fuzz.cases import QUESTION, Scenes
 from fuzz.changes import awkward
@@ -20,11 +20,11 @@ from fuzz.changes.thin import SUFFIX
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.laws.command import again, keep, record_costs, run
-from fuzz.laws.power import power
 from fuzz.members import members
 from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
+from fuzz.power.command import power
 from fuzz.proofs.command import certificates, proof_both, proof_mutants, scene_readers
 from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions
@@ -75,7 +75,7 @@ def fuzz(
       python -m fuzz --witness old --cases 2000
       python -m fuzz run tiling --seconds 600
       python -m fuzz battery
-      python -m fuzz planted
+      python -m fuzz power
       python -m fuzz small-scope
       python -m fuzz proof-mutants
       python -m fuzz questions
@@ -138,29 +138,6 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
             click.echo("\n".join(battery.table([row])[1:]))
     click.echo(f"{differences} differences")
     sys.exit(FAILED if differences else 0)
-
-
-@click.command("planted", context_settings=HELP)
-@click.argument("words", nargs=-1, metavar="[WORD]...")
-@click.option(
-    "--cases", "most", type=click.IntRange(min=1), default=planted.MOST, show_default=True
-)
-@click.option("--seed", type=int, default=0, show_default=True)
-def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
-    """Plant classic bugs one at a time, and count the cases until the fuzzer finds them.
-
-    A few are masked: no answer can show them, for the reason that fuzz/planted.py gives. One of
-    these that is found counts as one that has escaped.
-    """
-    click.echo(planted.table([])[0])
-    escaped = 0
-    for bug in planted.PLANTED:
-        if not words or any(word in bug for word in words):
-            found = planted.hunt(bug, most, seed=seed)
-            escaped += not found.is_as_expected
-            click.echo(planted.table([found])[1])
-    click.echo(f"{escaped} escaped")
-    sys.exit(FAILED if escaped else 0)
 
 
 @click.command("record", context_settings=HELP)
@@ -241,7 +218,6 @@ COMMANDS = {
     "record": make_record,
     "space-queries": public_queries,
     "battery": run_battery,
-    "planted": find_planted,
     "certificates": certificates,
     "proof-both": proof_both,
     "proof-mutants": proof_mutants,

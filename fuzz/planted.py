@@ -1,25 +1,20 @@
-"""Planted bugs: classic mistakes, made one at a time, that the fuzzer must find.
+"""Planted mistakes: classic ones, made one at a time, that the laws must find.
 
-They show that the fuzzer would find a fault if there were one. Each mistake is a temporary
-change of one function, given by a replacement of its text or of the whole function: so it outlives
-renumbered lines and renamed modules. It is hunted where its kind shows: in scenes of families, in
-awkward ones, in the small scope, or by a question.
+They show that the laws would find a fault if there were one (`python -m fuzz power`). Each mistake
+is a temporary change of one function: of its text, or of the whole function. So it outlives
+renumbered lines and renamed modules.
 """
 
 from __future__ import annotations
 
-import contextlib
-import inspect
-import textwrap
-import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from itertools import count
-from random import Random
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 from unittest.mock import patch
 
-from exactpt import AlgebraicNumber, InputError
+from exactpt import AlgebraicNumber
 from exactpt.arrays import radii, turning
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
 from exactpt.certificates.certifier import Certifier
@@ -37,38 +32,15 @@ from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.search import LinearSearch
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
-from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
-from fuzz.cases import QUESTION, Failure, failure_of
-from fuzz.changes.awkward import SUFFIX, awkward
-from fuzz.questions.command import KEPT, ask
-from fuzz.small_scope.look import look
-from fuzz.small_scope.scope import planned
+from fuzz.power.edits import Edit, Function, Replacement
 
-__all__ = ["MOST", "PLANTED", "WITNESSES", "Found", "Mistake", "hunt", "table"]
-
-WITNESSES: Final = ("reference", "static", "filters", "symmetry")
-
-MOST: Final = 14 * len(FAMILIES)
-"""Number of scenes in which a mistake is looked for: as many of each family, however many."""
-FAMILIES_AS_THEY_ARE: Final = "families"
-AWKWARD_FAMILIES: Final = "awkward families"
-THE_SMALL_SCOPE: Final = "the small scope"
-"""Where a mistake is hunted; or by a question, "questions/..."."""
-
-SMALL_SCOPE: Final = 1000
-"""Number of scenes of the small scope in which a mistake is looked for."""
-
-EASY: Final = 5
-"""Number of cases of a question that take about as long as a scene of a family."""
-
-WIDTH: Final = 50
-"""Width of the column of the names of mistakes."""
+__all__ = ["PLANTED", "Mistake"]
 
 RADIUS_IS_MASKED: Final = (
     "A radius r is too small by less than 2 U r. From boxes [b, e] of the differences of two "
@@ -93,34 +65,6 @@ COPIES_ARE_MASKED: Final = (
     "a triangle, of which another function takes care. Where p is in the place of v, at a contact, "
     "the order is 0 in both ways."
 )
-
-Function = Callable[..., Any]
-
-
-def _replaced(owner: object, name: str, make: Callable[[Function], Function]) -> Any:
-    """A context in which a function is replaced by a wrong one made from it."""
-    return patch.object(owner, name, make(getattr(owner, name)))
-
-
-@contextlib.contextmanager
-def _edited(owner: Any, name: str, old: str, new: str) -> Iterator[None]:
-    """A context in which a function has another text, of which ``old`` is replaced by ``new``.
-
-    The code of the function is exchanged, not the function: whoever has imported it by name makes
-    the mistake too.
-    """
-    right = inspect.unwrap(getattr(owner, name))
-    text = textwrap.dedent(inspect.getsource(right))
-    if text.count(old) != 1:
-        raise InputError(f"planted: {name} has {text.count(old)} times the text {old!r}")
-    made: dict[str, Any] = {}
-    exec(text.replace(old, new), right.__globals__, made)
-    code = right.__code__
-    right.__code__ = inspect.unwrap(made[name]).__code__
-    try:
-        yield
-    finally:
-        right.__code__ = code
 
 
 def _sign_at_a_root(right: Function) -> Function:
@@ -170,7 +114,7 @@ def _even_zeros_of_copies(right: Function) -> Function:
     def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
         if len({id(v.track) for v in (a, b, c)}) == 3:
             return right(self, a, b, c)
-        with _replaced(certifier, "roots_after", _even_roots):
+        with Replacement(certifier, "roots_after", _even_roots).made():
             return right(self, a, b, c)
 
     return wrong
@@ -273,115 +217,110 @@ class Mistake:
 
     Attributes:
         kind: the kind of the mistake, a sentence.
-        made: returns a context in which it is made.
-        hunted: where it is hunted.
+        change: the change of one function by which it is made.
         masked: why no answer can show it, if none can.
     """
 
     kind: str
-    made: Callable[[], Any]
-    hunted: str = FAMILIES_AS_THEY_ARE
+    change: Edit | Replacement
     masked: str = ""
+
+    def made(self) -> AbstractContextManager[object]:
+        """Return a context in which it is made."""
+        return self.change.made()
 
 
 PLANTED: Final[dict[str, Mistake]] = {
     "sign before for sign after": Mistake(
         "A sign is taken on the wrong side of a time at which it changes.",
-        lambda: _replaced(Certifier, "_exact_orientation", _sign_at_a_root),
+        Replacement(Certifier, "_exact_orientation", _sign_at_a_root),
     ),
     "sign of a certificate flipped": Mistake(
         "One of several forms of a certificate has the other orientation.",
-        lambda: _replaced(coefficients, "_three", _flipped),
+        Replacement(coefficients, "_three", _flipped),
     ),
     "events dropped": Mistake(
         "An event is lost, now and then.",
-        lambda: _replaced(EventQueue, "schedule_crossing", _events_dropped),
+        Replacement(EventQueue, "schedule_crossing", _events_dropped),
     ),
     "equal times not equal": Mistake(
         "Times that no double tells apart count as different.",
-        lambda: _replaced(EventQueue, "_compare", _order_of_ties),
+        Replacement(EventQueue, "_compare", _order_of_ties),
     ),
     "even roots ignored": Mistake(
         "Where a sign does not change, nothing is thought to happen.",
-        lambda: _replaced(certifier, "roots_after", _even_roots),
+        Replacement(certifier, "roots_after", _even_roots),
     ),
     "even zeros of copies ignored": Mistake(
         "The same, in a case that hardly shows in families.",
-        lambda: _replaced(Certifier, "_exact_orientation", _even_zeros_of_copies),
-        THE_SMALL_SCOPE,
+        Replacement(Certifier, "_exact_orientation", _even_zeros_of_copies),
     ),
     "contact proof skipped": Mistake(
-        "A necessary test is left out.", lambda: _replaced(engine, "may_touch", _always(False))
+        "A necessary test is left out.", Replacement(engine, "may_touch", _always(False))
     ),
     "straight chains not followed": Mistake(
         "A degenerate place counts as a general one.",
-        lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
+        Replacement(CertifiedMesh, "_is_flat", _always(False)),
     ),
     "vertex on vertex ignored": Mistake(
         "One of two kinds of incidences is forgotten.",
-        lambda: _replaced(incidences, "coincide", _no_meetings),
+        Replacement(incidences, "coincide", _no_meetings),
     ),
     "the wrong diagonal gives way": Mistake(
         "Of two things that are alike the wrong one is taken.",
-        lambda: _replaced(Repairs, "_repair_reflex_angle", _wrong_diagonal),
+        Replacement(Repairs, "_repair_reflex_angle", _wrong_diagonal),
     ),
     "pieces not certified anew": Mistake(
         "Something that has changed is not looked at again.",
-        lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
+        Replacement(CertifiedMesh, "certify_body", _always([])),
     ),
     "rigid by mistake": Mistake(
         "What holds for two is taken to hold for three.",
-        lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
+        Replacement(Certifier, "rigid", _rigid_if_one_velocity),
     ),
     "order of ties swapped": Mistake(
         "A tie is broken in the other way.",
-        lambda: _replaced(perturbation, "x_order_terms", _swapped),
+        Replacement(perturbation, "x_order_terms", _swapped),
     ),
     "containment at the start missed": Mistake(
         "Boundaries are compared, and what is inside them is not.",
-        lambda: _replaced(driver, "initial_touches", _first_body_only),
+        Replacement(driver, "initial_touches", _first_body_only),
     ),
     "x-order kept for ever": Mistake(
         "What holds now is taken to hold for ever.",
-        lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
+        Replacement(Certifier, "keeps_x_order", _always(True)),
     ),
     "root enclosures too narrow": Mistake(
         "An enclosure is narrower than what is proved.",
-        lambda: _replaced(filters, "linear", _narrow),
+        Replacement(filters, "linear", _narrow),
     ),
     "filter bound too small": Mistake(
         "Rounded numbers are taken for exact ones.",
-        lambda: _replaced(Certifier, "__init__", _unguarded),
+        Replacement(Certifier, "__init__", _unguarded),
     ),
     "ties lost in the queue": Mistake(
         "A bound is taken to be excluded that is included.",
-        lambda: _edited(EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"),
+        Edit(EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"),
     ),
     "the wrong end of a corner gives way": Mistake(
         "One of two directions is confused with the other.",
-        lambda: _edited(Repairs, "_repair_corner", "if side > 0", "if side < 0"),
+        Edit(Repairs, "_repair_corner", "if side > 0", "if side < 0"),
     ),
     "the angle across not certified": Mistake(
         "One of several places that change is forgotten.",
-        lambda: _edited(
-            Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
-        ),
+        Edit(Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"),
     ),
     "the wrong end of an isolated edge slides": Mistake(
         "One of two directions is confused with the other, on a fast way.",
-        lambda: _edited(
-            IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"
-        ),
+        Edit(IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"),
     ),
     "a contact taken for an isolated event": Mistake(
         "A fast way is taken where it does not apply.",
-        lambda: _edited(
-            IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"
-        ),
+        Edit(IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"),
     ),
     "an isolated angle across not certified": Mistake(
         "One of several places that change is forgotten, on a fast way.",
-        lambda: _edited(
+        Edit(
             IsolatedEvents,
             "_recertify",
             "twin(h), before, following[before]",
@@ -390,56 +329,46 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "ends of pieces missed": Mistake(
         "A kind of event is forgotten.",
-        lambda: _replaced(Clock, "end_of_piece", _always(None)),
+        Replacement(Clock, "end_of_piece", _always(None)),
     ),
     "swept boxes too small": Mistake(
         "A box does not contain what it stands for.",
-        lambda: _edited(SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("),
+        Edit(SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("),
     ),
     "the last root taken for the first": Mistake(
         "Of several solutions the wrong one is taken.",
-        lambda: _edited(
-            roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
-        ),
+        Edit(roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"),
     ),
     "the end of the span left out": Mistake(
         "A closed interval is taken for an open one.",
-        lambda: _edited(
-            Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"
-        ),
+        Edit(Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"),
     ),
     "vertical bitangents ignored": Mistake(
         "A rule of one tiling is not applied.",
-        lambda: _replaced(
+        Replacement(
             VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
         ),
     ),
     "single times left out": Mistake(
         "A closed interval that is a single time is taken for none.",
-        lambda: _edited(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
-        "questions/below",
+        Edit(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
     ),
     "a term of an error forgotten": Mistake(
         "One of the terms of a bound is left out, which only large edges show.",
-        lambda: _edited(near_features, "_may_be_least", "far * off_edge + ", ""),
-        "questions/moving",
+        Edit(near_features, "_may_be_least", "far * off_edge + ", ""),
     ),
     "times before 0 forgotten": Mistake(
         "The largest size of a time is taken to be that of the end of its span.",
-        lambda: _edited(
-            PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"
-        ),
-        "questions/convoy",
+        Edit(PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"),
     ),
     "a radius rounded down": Mistake(
         "A bound is rounded to the wrong side.",
-        lambda: _edited(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
-        "questions/convoy",
+        Edit(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
         RADIUS_IS_MASKED,
     ),
     "vertices of swapped bodies not swapped": Mistake(
         "Of two bodies that are put in order, only the names change places.",
-        lambda: _edited(
+        Edit(
             track,
             "vertex_touch",
             "Incidence(other, other_vertex, body, -1, vertex)",
@@ -448,16 +377,15 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "places at the start off by less": Mistake(
         "The constant of a bound is too small, which far bodies show alone.",
-        lambda: _edited(turning, "_at_start", "64.0 * U", "0.5 * U"),
-        "questions/batch",
+        Edit(turning, "_at_start", "64.0 * U", "0.5 * U"),
     ),
     "an isolated angle across not certified, mirrored": Mistake(
         "Of two mirrored branches, one forgets a place that changes.",
-        lambda: _edited(IsolatedEvents, "_recertify", "h, t, following[t]", "h, t, before"),
+        Edit(IsolatedEvents, "_recertify", "h, t, following[t]", "h, t, before"),
     ),
     "the edges beside an isolated corner swapped": Mistake(
         "Before and after are confused.",
-        lambda: _edited(
+        Edit(
             IsolatedEvents,
             "_choose",
             "stays_after if order > 0 else stays_before",
@@ -466,165 +394,47 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "the order of copies swapped": Mistake(
         "The arguments of a function that is antisymmetric change places.",
-        lambda: _edited(
+        Edit(
             Repairs,
             "_repair_corner",
             "nearer_copy(certifier, vp, va, vb)",
             "nearer_copy(certifier, vp, vb, va)",
         ),
-        THE_SMALL_SCOPE,
         COPIES_ARE_MASKED,
     ),
     "walls in line block the way": Mistake(
         "A path along a wall, or through its end, counts as one across it.",
-        lambda: _edited(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
-        "questions/paths",
+        Edit(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
     ),
     "hits at the goal missed": Mistake(
         "The end of a closed segment is taken to be excluded.",
-        lambda: _edited(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
-        "questions/places",
+        Edit(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
     ),
     "rounded constants taken for exact": Mistake(
         "Rounded numbers are taken for exact ones, where in most scenes they are.",
-        lambda: _edited(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
-        AWKWARD_FAMILIES,
+        Edit(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
     ),
     "no contact for a double too long": Mistake(
         "A bound is rounded to the wrong side, where only the last double shows it.",
-        lambda: _edited(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
-        "questions/budgets",
+        Edit(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
-        lambda: _edited(
+        Edit(
             search._Search,
             "run",
             "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
             "if self._deadline is not None and clock.monotonic() - 3600 >",
         ),
-        "questions/budgets",
     ),
     "the rounding of a square forgotten": Mistake(
         "The last operation of a formula is not in the bound of its error.",
-        lambda: _edited(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
-        "questions/arrays",
+        Edit(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
         SQUARES_ARE_MASKED,
     ),
     "numbers packed for another width": Mistake(
         "A value that is kept is used where it does not fit any more.",
-        lambda: _edited(Track, "packed", "kept != width", "kept < width"),
+        Edit(Track, "packed", "kept != width", "kept < width"),
     ),
 }
 """The mistakes by name."""
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """How a planted bug was found.
-
-    Attributes:
-        bug: its name.
-        failure: the failure found; None if there was none.
-        place: the family of the scene, the question or the small scope.
-        cases: number of cases checked.
-        seconds: processor time.
-    """
-
-    bug: str
-    failure: Failure | None
-    place: str
-    cases: int
-    seconds: float
-
-    @property
-    def is_as_expected(self) -> bool:
-        """True if it was found; or if it was not, and no answer can show it."""
-        return (self.failure is None) == bool(PLANTED[self.bug].masked)
-
-
-def hunt(
-    bug: str,
-    most: int = MOST,
-    witnesses: Sequence[str] = WITNESSES,
-    seed: int = 0,
-) -> Found:
-    """Look for a planted bug where it is hunted, in at most ``most`` scenes of families.
-
-    In the small scope there are `SMALL_SCOPE` scenes; a question is asked `EASY` times as often.
-
-    Raises:
-        InputError: if the package is compiled: compiled functions cannot be patched.
-    """
-    if not filters.__file__.endswith(".py"):
-        raise InputError("mistakes are planted in the plain package only: make plain")
-    began = clock.process_time()
-    mistake = PLANTED[bug]
-    if mistake.hunted == THE_SMALL_SCOPE:
-        cases = _in_small_scope(mistake)
-    elif mistake.hunted.startswith(QUESTION):
-        cases = _by_question(mistake, most if mistake.masked else EASY * most, seed)
-    else:
-        cases = _in_families(mistake, most, witnesses, seed)
-    checked = 0
-    for place, failure in cases:
-        checked += 1
-        if failure is not None:
-            return Found(bug, failure, place, checked, clock.process_time() - began)
-    return Found(bug, None, "", checked, clock.process_time() - began)
-
-
-Cases: TypeAlias = "Iterator[tuple[str, Failure | None]]"
-"""Where a case is from, and its failure if it has one."""
-
-
-def _in_families(mistake: Mistake, most: int, witnesses: Sequence[str], seed: int) -> Cases:
-    """Check scenes of the families, taken in turn, by witnesses."""
-    families = list(FAMILIES)
-    for number in range(most):
-        family, turn = families[number % len(families)], seed + number // len(families)
-        scene = generate(family, turn)
-        if mistake.hunted == AWKWARD_FAMILIES:
-            scene = awkward(scene, Random(f"{family} {turn}"))
-            family += SUFFIX
-        failure: Failure | None = None
-        with mistake.made():
-            for witness in witnesses:
-                failure = failure_of(witness, scene, number, patience=5.0)
-                if failure is not None:
-                    break
-        yield family, failure
-
-
-def _in_small_scope(mistake: Mistake) -> Cases:
-    for number in range(SMALL_SCOPE):
-        with mistake.made():
-            seen = look(planned(number))
-        faults = [answer for answer in seen.answers if answer.fault is not None]
-        failure = None
-        for answer in faults[:1]:
-            failure = Failure(answer.method, answer.fault or "", answer.fault or "", "")
-        yield THE_SMALL_SCOPE, failure
-
-
-def _by_question(mistake: Mistake, most: int, seed: int) -> Cases:
-    """Ask the question of a mistake, which is compared with its definition."""
-    question = mistake.hunted.removeprefix(QUESTION)
-    for number in range(most):
-        with mistake.made():
-            asked = ask(question, seed, number, lambda _: None, None, KEPT)
-        failure = None
-        for finding in asked.findings[:1]:
-            failure = Failure("question", finding.signature, finding.why, "")
-        yield mistake.hunted, failure
-
-
-def table(found: Sequence[Found]) -> list[str]:
-    """One line for each planted bug."""
-    lines = [f"{'planted bug':{WIDTH}}{'cases':>7}{'seconds':>9}  found by"]
-    for f in found:
-        by = "masked" if PLANTED[f.bug].masked else "NOTHING"
-        if f.failure is not None:
-            by = f"{f.failure.witness}, {f.place}: {f.failure.signature}"
-        lines.append(f"{f.bug:{WIDTH}}{f.cases:>7}{f.seconds:>9.1f}  {by}")
-    return lines

@@ -48,11 +48,13 @@ class Difference(Exception):  # noqa: N818 - a finding, the purpose of it all
 
     Attributes:
         kind: the type of the difference, in words that do not depend on the scene's numbers.
+        scene: the scene in which they differ, if the check has drawn it itself.
     """
 
-    def __init__(self, kind: str, detail: str = "") -> None:
+    def __init__(self, kind: str, detail: str = "", scene: Scene | None = None) -> None:
         super().__init__(f"{kind}: {detail}" if detail else kind)
         self.kind = kind
+        self.scene = scene
 
 
 class LeftOutError(Exception):

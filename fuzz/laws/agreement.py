@@ -9,7 +9,7 @@ from fuzz.laws.law import Check
 from fuzz.laws.questions import QUESTIONS, Answer
 from fuzz.witnesses import Difference, LeftOutError
 
-__all__ = ["as_defined", "two_ways_agree"]
+__all__ = ["as_defined", "two_ways_agree", "way_is_as_defined"]
 
 
 def as_defined(question: str, *, several: int | None = None) -> Check:
@@ -29,6 +29,22 @@ def as_defined(question: str, *, several: int | None = None) -> Check:
             found = asked.comparable(found)
             if found != expected:
                 raise Difference(name, f"{found!r}, by definition {expected!r}")
+        return asked.kind(expected)
+
+    return check
+
+
+def way_is_as_defined(question: str, way: str) -> Check:
+    """Return the check that one way answers as the definition does, for more cases in its time."""
+    asked = QUESTIONS[question]
+
+    def check(scene: Scene, random: Random) -> str:
+        """One way to ask a question agrees with its definition."""
+        about = asked.draw(scene, random)
+        expected = asked.define(scene, about)
+        found = asked.comparable(asked.ways[way](scene, about))
+        if found != expected:
+            raise Difference(way, f"{found!r}, by definition {expected!r}")
         return asked.kind(expected)
 
     return check

@@ -1,6 +1,7 @@
 """Laws whose checks draw their own cases: filters, files, drawings, queries in space.
 
-Their source is "own", a scene without bodies. A fault has its case in its text, and is not shrunk.
+Their source is "own", a scene without bodies. A fault has its case in its text, and is shrunk only
+if the case is a scene: then the check takes a given scene instead of drawing one.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from fuzz.questions.curves import wrong_along
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.stated import stated_case, wrong_after_moves, wrong_at_the_start
 from fuzz.questions.touching_rings import wrong_validity
+from fuzz.small_scope.look import looks
+from fuzz.small_scope.scope import planned, sizes
 from fuzz.transformations import run
 from fuzz.transformations.run import SCENES
 from fuzz.witnesses import Difference
@@ -33,6 +36,7 @@ __all__ = [
     "filters_say_what_is_true",
     "hostile_files_are_refused",
     "queries_in_space_are_as_defined",
+    "small_scope_is_as_defined",
     "stated_errors_are_kept",
     "touching_rings_are_valid_or_not",
 ]
@@ -61,6 +65,20 @@ def as_asked(question: str) -> Check:
         return checked.kind
 
     return check
+
+
+def small_scope_is_as_defined(scene: Scene, random: Random) -> str:
+    """A scene of the small scope is as defined by all methods; a given one takes its place."""
+    one = planned(random.randrange(sum(sizes().values())))
+    if scene.bodies:
+        one = one._replace(scene=scene)
+    (seen,) = looks([one])
+    faults = [answer for answer in seen.answers if answer.fault is not None]
+    if faults:
+        methods = ", ".join(sorted({answer.method for answer in faults}))
+        said = "; ".join(f"{answer.method}: {answer.fault}" for answer in faults)
+        raise Difference(methods, f"scene {one.number}: {said}", one.scene)
+    return "no contact" if seen.contact is None else seen.contact.kind
 
 
 def descriptions_change_nothing(scene: Scene, random: Random) -> str:  # noqa: ARG001

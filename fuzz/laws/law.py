@@ -10,6 +10,7 @@ from typing import Final, TypeAlias
 from exactpt import Scene
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
+from fuzz import compiled_copy
 from fuzz.old_engine.build import is_built
 from fuzz.witnesses import Difference, LeftOutError
 
@@ -32,7 +33,11 @@ def _has_cgal() -> bool:
     return True
 
 
-PROGRAMS: Final[dict[str, Callable[[], bool]]] = {"cgal": _has_cgal, "old engine": is_built}
+PROGRAMS: Final[dict[str, Callable[[], bool]]] = {
+    "cgal": _has_cgal,
+    "old engine": is_built,
+    "compiled copy": compiled_copy.is_built,
+}
 """Other programs that laws run: whether each of them is built."""
 
 

@@ -195,6 +195,7 @@ def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
         return NOT_ASKED, None
     except Difference as difference:
         signature, why = difference.kind, str(difference)
+        scene = difference.scene or scene
     except TooSlow:
         signature, why = "hangs", f"no answer within {PATIENCE:.0f} s of processor time"
     except Exception as error:  # any exception is a finding
@@ -205,7 +206,7 @@ def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
 def shrunk(fault: Fault, seconds: float) -> Fault:
     """Return the same fault, of the same law and with the same signature, in a smaller scene."""
     if not fault.scene.bodies:
-        return fault  # a law that draws its own cases
+        return fault  # a law that draws its own cases, which are no scenes
 
     def fails(smaller: Scene) -> bool:
         found = look(fault.case, smaller).fault

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from fuzz.laws.agreement import as_defined, two_ways_agree
+from fuzz.laws.agreement import as_defined, two_ways_agree, way_is_as_defined
 from fuzz.laws.choices import choices_are_each_pair_alone, chosen_contacts_are_part_of_all
 from fuzz.laws.contacts import bodies_touch_in_their_intervals
 from fuzz.laws.costs import (
@@ -24,6 +24,7 @@ from fuzz.laws.drawn import (
     filters_say_what_is_true,
     hostile_files_are_refused,
     queries_in_space_are_as_defined,
+    small_scope_is_as_defined,
     stated_errors_are_kept,
     touching_rings_are_valid_or_not,
 )
@@ -46,9 +47,16 @@ from fuzz.laws.together import (
     array_queries_are_first_contacts,
     arrays_are_single_calls,
     batch_is_single_calls,
+    rounded_pairs_in_arrays,
+    turning_pairs_in_a_batch,
 )
 from fuzz.laws.walks import relative_hulls_are_taut, shortened_walks_are_taut
-from fuzz.laws.witnessed import cgal_accepts_runs, definitions_agree, old_engine_agrees
+from fuzz.laws.witnessed import (
+    cgal_accepts_runs,
+    compiled_is_plain,
+    definitions_agree,
+    old_engine_agrees,
+)
 
 __all__ = ["LAWS"]
 
@@ -257,10 +265,13 @@ LAWS: Final[dict[str, Law]] = {
         ("pair", "tiny/pair", "pair+rounded", "tiny/pair+rounded", "family/chains_on_grid"),
         most=60,
     ),
-    "arrays/adversary": Law(as_asked("arrays"), ("own",), share=0.5),
-    "batch/adversary": Law(as_asked("batch"), ("own",), share=1.5),
-    "first contact/small scope": Law(as_asked("small-scope"), ("own",)),
-    "first contact/far": Law(as_asked("convoy"), ("own",)),
+    "arrays/adversary": Law(rounded_pairs_in_arrays, ("own",), share=0.5),
+    "batch/adversary": Law(turning_pairs_in_a_batch, ("own",), share=1.5),
+    "first contact/small scope": Law(small_scope_is_as_defined, ("own",)),
+    "first contact/far": Law(
+        way_is_as_defined("first contact", "pairs"),
+        ("far/convoy", "far/relay", "far/convoy", "far/relay+awkward"),
+    ),
     "distance/moving": Law(as_asked("moving"), ("own",), share=3),
     "budget/looks": Law(as_asked("budgets"), ("own",)),
     "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
@@ -287,6 +298,12 @@ LAWS: Final[dict[str, Law]] = {
         ("family", "pair+nudged", "tiny/pair+awkward"),
         most=60,
         needs="old engine",
+    ),
+    "compiled/plain": Law(
+        compiled_is_plain,
+        ("family", "tiny/pair+awkward", "family+nudged", "scope", "turning+awkward"),
+        most=60,
+        needs="compiled copy",
     ),
     **{
         f"cost/{name}": Law(

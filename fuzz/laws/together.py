@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import combinations
 from random import Random
@@ -13,12 +13,16 @@ import exactpt
 from exactpt import Body, Contact, Polynomial, Scene, Translation
 from exactpt.kernel.numbers import QQ
 from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.questions import batched, in_arrays
+from fuzz.questions.in_arrays import TOGETHER
 from fuzz.witnesses import Difference
 
 __all__ = [
     "array_queries_are_first_contacts",
     "arrays_are_single_calls",
     "batch_is_single_calls",
+    "rounded_pairs_in_arrays",
+    "turning_pairs_in_a_batch",
 ]
 
 LINES: Final = 5
@@ -65,6 +69,50 @@ def arrays_are_single_calls(scene: Scene, random: Random) -> str:
         _check_row(contacts, row, expected)
         outcomes.add("none" if expected is None else expected.kind)
     return ", ".join(sorted(outcomes)) or "none"
+
+
+def turning_pairs_in_a_batch(scene: Scene, random: Random) -> str:
+    """A batch of pairs that turn far from their pivots, and touch at the start, has their contacts.
+
+    A scene that is given is checked instead, as a batch of one.
+    """
+    scenes = [scene] if scene.bodies else _drawn(batched.touching_while_turning, random)
+    lines = (json.dumps(one.to_json()) for one in scenes)
+    found = 0
+    for one, answer in zip(scenes, exactpt.batch.answers(lines), strict=True):
+        contact = exactpt.first_contact(one)
+        expected = None if contact is None else _as_read(contact.to_json())
+        got = _as_read(answer.get("contact", answer))
+        if got != expected:
+            raise Difference("batch", f"{got}, by itself {expected}", one)
+        found += contact is not None
+    return f"{10 * round(10 * found / len(scenes))} % touch"
+
+
+def rounded_pairs_in_arrays(scene: Scene, random: Random) -> str:
+    """Pairs of rounded bodies in doubles, about as far apart as their radii, are as by themselves.
+
+    A scene that is given is checked instead, as the only pair.
+    """
+    scenes = [scene] if scene.bodies else _drawn(in_arrays.rounded_pair_of_doubles, random)
+    refuse_unless(len(scenes[0].bodies) == 2)
+    bodies = [body for one in scenes for body in one.bodies]
+    refuse_unless(all(map(_suits_arrays, bodies)))
+    rows = [(2 * k, 2 * k + 1) for k in range(len(scenes))]
+    contacts = _in_arrays(scenes[0], bodies, rows)
+    found = 0
+    for row, one in enumerate(scenes):
+        expected = exactpt.first_contact(one)
+        try:
+            _check_row(contacts, row, expected)
+        except Difference as difference:
+            raise Difference(difference.kind, str(difference), one) from None
+        found += expected is not None
+    return f"{10 * round(10 * found / len(scenes))} % touch"
+
+
+def _drawn(draw: Callable[[Random], Scene], random: Random) -> list[Scene]:
+    return [draw(random) for _ in range(TOGETHER)]
 
 
 def array_queries_are_first_contacts(scene: Scene, random: Random) -> str:

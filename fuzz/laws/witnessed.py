@@ -10,11 +10,12 @@ from exactpt.testing import reference
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import defined_intervals
 from fuzz.laws.tilings import a_tiling
+from fuzz.old_engine.answers import answer_to
 from fuzz.old_engine.compare import compared
-from fuzz.old_engine.process import old_engine
+from fuzz.old_engine.process import Answer, compiled_engine, old_engine
 from fuzz.witnesses import Difference, tilings_of
 
-__all__ = ["cgal_accepts_runs", "definitions_agree", "old_engine_agrees"]
+__all__ = ["cgal_accepts_runs", "compiled_is_plain", "definitions_agree", "old_engine_agrees"]
 
 
 def definitions_agree(scene: Scene, random: Random) -> str:  # noqa: ARG001
@@ -51,3 +52,20 @@ def old_engine_agrees(scene: Scene, random: Random) -> str:
             raise Difference(kind, f"{asked.arguments}: {asked.new.text}, once {asked.old.text}")
     refuse_unless(outcome)
     return outcome
+
+
+def compiled_is_plain(scene: Scene, random: Random) -> str:
+    """The compiled package gives the same results and events as the plain one, byte for byte."""
+    tiling = a_tiling(scene, random)
+    questions: list[tuple[str, dict[str, object]]] = [
+        ("first contact", {}),
+        ("run", {"tiling": tiling}),
+        ("run", {"tiling": tiling, "exact_only": True}),
+        ("contacts", {}),
+        ("enclosed contact", {}),
+    ]
+    asked, arguments = random.choice(questions)
+    plain = Answer.of(answer_to(asked, scene, arguments))
+    compiled = compiled_engine().ask(asked, scene, **arguments)
+    check_equal(f"{asked}, compiled", compiled, plain)
+    return f"{asked}, {plain.kind}"

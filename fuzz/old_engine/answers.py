@@ -74,6 +74,12 @@ def _within(scene: Scene, arguments: Arguments) -> object:
     return None if time is None else _number(time)
 
 
+def _run(scene: Scene, arguments: Arguments) -> object:
+    """Answer with all events of a run by a tiling, with or without filters."""
+    run = exactpt.Simulation(scene, **arguments)
+    return [event.to_json() for event in run.run()]
+
+
 def _number(number: AlgebraicNumber) -> object:
     """Return the same for equal numbers, however far they have been refined."""
     polynomial = [str(c) for c in number.minimal_polynomial()]
@@ -88,6 +94,7 @@ QUESTIONS: Final[dict[str, Callable[[Scene, Arguments], object]]] = {
     "distance": _distance,
     "clearance": _clearance,
     "first within": _within,
+    "run": _run,
 }
 """The questions by name."""
 

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple, TypeAlias
 
 from exactpt import Scene
 from fuzz.old_engine.answers import answer_to
-from fuzz.old_engine.process import Answer, OldEngine
+from fuzz.old_engine.process import Answer, OtherEngine
 
 __all__ = ["Compared", "compared"]
 
@@ -40,7 +40,7 @@ class Compared(NamedTuple):
 
 
 def compared(
-    scene: Scene, tilings: Sequence[str], turn: int | None, engine: OldEngine
+    scene: Scene, tilings: Sequence[str], turn: int | None, engine: OtherEngine
 ) -> Iterator[Compared]:
     """Ask both versions about a scene; the new one only if the old one has an answer.
 

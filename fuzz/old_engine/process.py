@@ -1,4 +1,4 @@
-"""The running old engine: scenes in, answers out, in a process of its own."""
+"""Another copy of the package, old or compiled: scenes in, answers out, in a process of its own."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from typing import Final, NamedTuple, final
 from exactpt import Scene
 from exactpt.errors import AuditError, InputError
 from exactpt.scene.written import to_json
+from fuzz import compiled_copy
 from fuzz.old_engine.build import SITE, is_built
 
-__all__ = ["Answer", "OldEngine", "old_engine"]
+__all__ = ["Answer", "OtherEngine", "compiled_engine", "old_engine"]
 
 PATIENCE: Final = 60.0
 """Seconds in which a question is answered; a process without an answer is ended."""
@@ -45,15 +46,17 @@ class Answer(NamedTuple):
 
 
 @final
-class OldEngine:
+class OtherEngine:
     """The process: it is started when it is needed, and again after it has ended.
 
     Args:
-        site: the folder with the old package.
+        site: the folder with the other package.
+        name: what it is, for messages.
     """
 
-    def __init__(self, site: Path = SITE) -> None:
+    def __init__(self, site: Path, name: str = "the old engine") -> None:
         self._site = site
+        self._name = name
         self._process: subprocess.Popen[str] | None = None
 
     def ask(self, question: str, scene: Scene, **arguments: object) -> Answer:
@@ -61,7 +64,7 @@ class OldEngine:
 
         Raises:
             AuditError: if the process ends, or does not answer in time.
-            InputError: if another package than the old one answers.
+            InputError: if another package than that one answers.
         """
         request = {"question": question, "scene": to_json(scene), "arguments": arguments}
         try:
@@ -92,7 +95,7 @@ class OldEngine:
         return self._line()
 
     def _start(self) -> None:
-        """Start the process, and check that it runs the old package and no other."""
+        """Start the process, and check that it runs the other package and no third one."""
         # -P: the folder of the script is not searched. PYTHONPATH comes before what is installed.
         self._process = subprocess.Popen(
             [sys.executable, "-P", str(SCRIPT)],
@@ -103,26 +106,41 @@ class OldEngine:
         )  # fmt: skip
         where = Path(json.loads(self._line())["where"])
         if not where.is_relative_to(self._site):
-            raise InputError(f"the old engine: {where} answers instead of {self._site}")
+            raise InputError(f"{self._name}: {where} answers instead of {self._site}")
 
     def _line(self) -> str:
         assert self._process is not None  # noqa: S101
         assert self._process.stdout is not None  # noqa: S101
         if not select([self._process.stdout], [], [], PATIENCE)[0]:
-            raise AuditError(f"the old engine: no answer in {PATIENCE:g} seconds")
+            raise AuditError(f"{self._name}: no answer in {PATIENCE:g} seconds")
         line = self._process.stdout.readline()
         if not line.endswith("\n"):
-            raise AuditError("the old engine: the process has ended")
+            raise AuditError(f"{self._name}: the process has ended")
         return line
 
 
-def old_engine() -> OldEngine:
-    """Return the old engine of this process: a forked one has its own."""
-    return _engine_of(os.getpid())
+def old_engine() -> OtherEngine:
+    """Return the old engine of this process: a forked one has its own.
+
+    Raises:
+        InputError: if it is not built.
+    """
+    if not is_built():
+        raise InputError("the old engine is not built: make old-engine")
+    return _engine_of(os.getpid(), SITE, "the old engine")
+
+
+def compiled_engine() -> OtherEngine:
+    """Return the compiled copy of this checkout for this process: a forked one has its own.
+
+    Raises:
+        InputError: if it is not built, or of other sources.
+    """
+    if not compiled_copy.is_built():
+        raise InputError("the sources of the compiled copy are not these: make compiled-copy")
+    return _engine_of(os.getpid(), compiled_copy.FOLDER, "the compiled copy")
 
 
 @cache
-def _engine_of(process: int) -> OldEngine:  # noqa: ARG001
-    if not is_built():
-        raise InputError("the old engine is not built: make old-engine")
-    return OldEngine()
+def _engine_of(process: int, site: Path, name: str) -> OtherEngine:  # noqa: ARG001
+    return OtherEngine(site, name)

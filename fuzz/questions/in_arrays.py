@@ -15,7 +15,7 @@ from exactpt.arrays import KINDS, first_contacts
 from exactpt.kernel.numbers import of_double
 from fuzz.changes.awkward import awkward_number
 
-__all__ = ["wrong_in_arrays"]
+__all__ = ["TOGETHER", "rounded_pair_of_doubles", "wrong_in_arrays"]
 
 TOGETHER: Final = 32
 """Number of pairs in a call."""
@@ -39,7 +39,7 @@ class _Moving(NamedTuple):
 
 def wrong_in_arrays(random: Random) -> tuple[Scene, str, str | None]:
     """Return a scene of two bodies, what happens in it, and the fault of the arrays."""
-    bodies = [body for _ in range(TOGETHER) for body in _pair(random)]
+    bodies = [body for _ in range(TOGETHER) for body in _two(random)]
     offsets = [0]
     for body in bodies:
         offsets.append(offsets[-1] + len(body.vertices))
@@ -71,7 +71,13 @@ def _wrong(expected: Contact, kind: str, ends: tuple[float, float]) -> str | Non
     return None if kind == expected.kind else f"{kind}, not {expected.kind}"
 
 
-def _pair(random: Random) -> tuple[_Moving, _Moving]:
+def rounded_pair_of_doubles(random: Random) -> Scene:
+    """Return a scene of two bodies in doubles, about as far apart at the start as their radii."""
+    first, second = _two(random)
+    return Scene([first.body("a"), second.body("b")], (0, END))
+
+
+def _two(random: Random) -> tuple[_Moving, _Moving]:
     """Return two bodies of which the first vertices are about as far apart as the radii."""
     size = random.choice([1e-3, 1.0, 1.0, 1e4])
     radii = [abs(float(awkward_number(random, 2))) * size for _ in "ab"]

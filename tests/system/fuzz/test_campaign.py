@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 from exactpt import InputError, Scene, first_contact
-from exactpt.testing import scenes
 from exactpt.testing.scenes import generate
 from exactpt.tiling.start import tilings_for
 from fuzz.__main__ import FAMILIES as FUZZED
@@ -24,7 +23,8 @@ from fuzz.laws import kept
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
 from fuzz.options import _report
-from fuzz.planted import PLANTED, _edited, hunt, table
+from fuzz.planted import PLANTED
+from fuzz.power.edits import Edit
 from fuzz.questions import checks
 from fuzz.questions.checks import QUESTIONS, Checked, checked
 from fuzz.small_scope.scope import planned
@@ -370,22 +370,6 @@ def test_what_breaks_and_what_hangs_is_a_failure(monkeypatch):
     assert failure_of("reference", scene, patience=0.2).signature == "hangs"
 
 
-@pytest.mark.plain
-@pytest.mark.parametrize("bug", ["the wrong diagonal gives way", "vertical bitangents ignored"])
-def test_a_planted_bug_is_found(bug):
-    found = hunt(bug, 3 * len(scenes.FAMILIES), ("static",))
-
-    assert found.failure is not None
-    assert bug in table([found])[1]
-
-
-@pytest.mark.plain
-@pytest.mark.slow
-@pytest.mark.parametrize("bug", PLANTED)
-def test_every_planted_bug_is_found(bug):
-    assert hunt(bug).is_as_expected
-
-
 def test_by_default_scenes_and_questions_take_turns():
     assert MIXED[::2] == (*FUZZED, *(f"{name}/awkward" for name in FUZZED))
     assert {name.removeprefix("questions/") for name in MIXED[1 : 2 * len(QUESTIONS) : 2]} == set(
@@ -443,7 +427,7 @@ def test_a_flip_that_leaves_angles_without_certificates_is_found():
     Where the shadow edge ends at an end of the diagonal, the third angle of a triangle stays as it
     is, but had the certificate of another angle; `recertify` adds it to faces of four edges alone.
     """
-    with _edited(checks, "flip", "if was_triangle:", "if was_triangle and not changed:"):
+    with Edit(checks, "flip", "if was_triangle:", "if was_triangle and not changed:").made():
         results = [run_case(Case(number, "questions/flips", 0), witnesses=[]) for number in (0, 1)]
 
     assert any("certificates missing" in f.why for result in results for f in result.findings)
@@ -506,14 +490,6 @@ def test_the_command_line_asks_for_cgal():
 
     assert done.returncode == 2
     assert "--witness" in done.stderr
-
-
-@pytest.mark.plain
-def test_planted_from_the_command_line():
-    done = fuzz("planted", "wrong diagonal")
-
-    assert done.returncode == 0
-    assert done.stdout.endswith("0 escaped\n")
 
 
 COMMANDS = {
