@@ -272,9 +272,7 @@ LAWS: Final[dict[str, Law]] = {
         way_is_as_defined("first contact", "pairs"),
         ("far/convoy", "far/relay", "far/convoy", "far/relay+awkward"),
     ),
-    "distance/moving": Law(as_asked("moving"), ("own",), share=3),
     "budget/looks": Law(as_asked("budgets"), ("own",)),
-    "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
     "tiling/flips": Law(as_asked("flips"), ("own",)),
     "description/same": Law(descriptions_change_nothing, ("own",)),
     "exchange/scenes": Law(
