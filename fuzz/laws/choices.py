@@ -52,9 +52,9 @@ def _counted(scene: Scene) -> set[Pair]:
 
 def _between(scene: Scene, random: Random) -> Choice:
     every = sorted(_counted(scene), key=sorted)
-    chosen = set(random.sample(every, random.randint(1, len(every))))
+    chosen = random.sample(every, random.randint(1, len(every)))
     named = [random.sample(sorted(pair), 2) for pair in chosen]
-    return Choice("between", scene, named, [], chosen)
+    return Choice("between", scene, named, [], set(chosen))
 
 
 def _ignoring(scene: Scene, random: Random) -> Choice:
@@ -71,21 +71,24 @@ def _ignoring(scene: Scene, random: Random) -> Choice:
 
 def chosen_contacts_are_part_of_all(scene: Scene, random: Random) -> str:
     """Contacts, approaches and new contacts of chosen pairs follow from those of each pair."""
-    scene_of_all = scene
-    kind, scene, between, ignoring, chosen = random.choice([_between, _ignoring])(scene, random)
-    every = exactpt.contacts(scene_of_all)
-    some = exactpt.contacts(scene, between=between, ignoring=ignoring)
-    check_equal("contacts", some, [i for i in every if frozenset({i.a, i.b}) in chosen])
-    distance = fraction(random.choice(DISTANCES))
-    found = exactpt.first_within(scene, distance=distance, between=between, ignoring=ignoring)
-    check_equal("first within", found, _first_approach(scene_of_all, chosen, distance))
-    new = exactpt.first_contact(scene, after_start=True, between=between, ignoring=ignoring)
-    if new is None or new.kind != "self":
-        names = plain_contact(new)
-        value = None if names is None else (names.time, names.names)
-        pairs = [sorted(pair) for pair in chosen]
-        check_equal("new contact", value, reference.first_new_contact(scene_of_all, pairs))
-    return f"{kind}, {'no contact' if new is None else new.kind}"
+    choice = random.choice([_between, _ignoring])(scene, random)
+    _check_contacts(scene, choice)
+    _check_approach(scene, choice, fraction(random.choice(DISTANCES)))
+    new = _check_new(scene, choice)
+    return f"{choice.kind}, {'no contact' if new is None else new.kind}"
+
+
+def _check_contacts(scene: Scene, choice: Choice) -> None:
+    every = exactpt.contacts(scene)
+    some = exactpt.contacts(choice.scene, between=choice.between, ignoring=choice.ignoring)
+    check_equal("contacts", some, [i for i in every if frozenset({i.a, i.b}) in choice.chosen])
+
+
+def _check_approach(scene: Scene, choice: Choice, distance: Fraction) -> None:
+    found = exactpt.first_within(
+        choice.scene, distance=distance, between=choice.between, ignoring=choice.ignoring
+    )
+    check_equal("first within", found, _first_approach(scene, choice.chosen, distance))
 
 
 def _first_approach(
@@ -99,7 +102,22 @@ def _first_approach(
     if not within:
         return None
     first = min(within.values())
-    return exactpt.Approach(first, tuple(sorted(p for p, time in within.items() if time == first)))
+    at_first = [pair for pair, time in within.items() if time == first]
+    return exactpt.Approach(first, tuple(sorted(at_first)))
+
+
+def _check_new(scene: Scene, choice: Choice) -> Contact | None:
+    """Check a new contact, and return it; that of a body with itself may be before all others."""
+    new = exactpt.first_contact(
+        choice.scene, after_start=True, between=choice.between, ignoring=choice.ignoring
+    )
+    if new is not None and new.kind == "self":
+        return new
+    found = plain_contact(new)
+    of_two = found and (found.time, {pair for pair in found.names if len(pair) == 2})
+    pairs = [sorted(pair) for pair in choice.chosen]
+    check_equal("new contact", of_two, reference.first_new_contact(scene, pairs))
+    return new
 
 
 def choices_are_each_pair_alone(scene: Scene, random: Random) -> str:

@@ -304,8 +304,8 @@ def _a_squared_distance(scene: Scene, random: Random) -> QQ:
 def _size(scene: Scene) -> QQ:
     """Return the largest difference of a coordinate of the first vertices at the start."""
     first = [body.exact_at(scene.exact_start)[0] for body in scene.bodies]
-    return max((abs(p - q) for u, v in combinations(first, 2) for p, q in zip(u, v, strict=True)),
-               default=QQ(1))  # fmt: skip
+    differences = (abs(p - q) for u, v in combinations(first, 2) for p, q in zip(u, v, strict=True))
+    return max(differences, default=QQ(1))
 
 
 def _as_approach(found: exactpt.Approach | AlgebraicNumber | None) -> Answer:

@@ -89,6 +89,7 @@ LAWS: Final[dict[str, Law]] = {
     "first contact/points": Law(
         points_are_where_bodies_touch,
         ("tiny/crossed", *FAMILY, *MOVING, "radii", "rings", "tiny/rounded", "tiny/scaled", "pair"),
+        share=0.5,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
@@ -106,6 +107,7 @@ LAWS: Final[dict[str, Law]] = {
     "contacts/methods": Law(
         two_ways_agree("contacts"),
         (*FAMILY, "pair+awkward", "radii", "rings", "tiny/rings", "walkers", "tiny/scaled"),
+        share=0.5,
         most=60,
     ),
     "contacts/times": Law(
@@ -123,6 +125,7 @@ LAWS: Final[dict[str, Law]] = {
     "first within/methods": Law(
         two_ways_agree("first within"),
         (*FAMILY, *MOVING, "crowd", "radii", "rings", "tiny/scaled", "walkers", "wheels"),
+        share=0.5,
         most=60,
     ),
     "distance/reference": Law(
@@ -156,11 +159,13 @@ LAWS: Final[dict[str, Law]] = {
     "distance/least": Law(
         as_defined("least distance"),
         ("tiny/distant", "tiny/rounded", "tiny/pair+awkward", "tiny/distant+nudged", "pair"),
+        share=0.5,
         most=10,
     ),
     "distance/surroundings": Law(
         surroundings_are_of_each_pair,
         ("tiny/crowded", "tiny/fractions", "family", "tiny/crowded+awkward", "radii"),
+        share=0.5,
         most=30,
     ),
     "new contact/reference": Law(
@@ -240,6 +245,7 @@ LAWS: Final[dict[str, Law]] = {
     "contacts/choices": Law(
         chosen_contacts_are_part_of_all,
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
+        share=0.5,
         most=24,
     ),
     "reference/reference": Law(
