@@ -119,8 +119,9 @@ def ends_of_diagonals(tiling):
 
 
 def following(tiling, scene):
-    """The time of the next event, or the end."""
-    return tiling.next_number() or AlgebraicNumber(scene.exact_end)
+    """The time of the next event, or the end: what is later by less than doubles tell is queued."""
+    end = AlgebraicNumber(scene.exact_end)
+    return min(tiling.next_number() or end, end)
 
 
 def advance_to(tiling, scene, time):

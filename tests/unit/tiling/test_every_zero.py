@@ -17,8 +17,6 @@ from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling
-from fuzz.laws.kept import kept, names
-from fuzz.witnesses import tilings_of
 
 GRAZING = Scene(
     [
@@ -95,15 +93,6 @@ def run_and_check(scene, tiling):
 def test_the_pending_time_of_an_angle_is_its_first_zero(family, tiling):
     for seed in range(2):
         run_and_check(generate(family, seed), tiling)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("tiling", TILINGS)
-@pytest.mark.parametrize("name", names())
-def test_the_same_in_kept_cases(name, tiling):
-    scene = kept(name).scene
-    if tiling in tilings_of(scene):
-        run_and_check(scene, tiling)
 
 
 @pytest.mark.parametrize("tiling", ["lazy", "mixed"])
