@@ -65,7 +65,7 @@ def fuzz(
 
     By default 200 cases, a scene of each family and a question in turn; in a second round scenes
     are awkward: no number is a double. A named family or witness leaves the questions out; a
-    question is named as a family, questions/distance. The witness "old" is the engine of version
+    question is named as a family, questions/spin. The witness "old" is the engine of version
     0.2 (make old-engine), which alone takes all families by default.
 
     \b

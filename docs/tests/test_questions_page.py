@@ -9,6 +9,7 @@ import pytest
 from benchmarks.catalogue import BENCHMARKS
 from fuzz.__main__ import COMMANDS
 from fuzz.__main__ import fuzz as campaign
+from fuzz.laws.table import LAWS
 from fuzz.transformations.command import equalities
 
 ROOT = Path(__file__).parents[2]
@@ -48,7 +49,14 @@ def test_a_named_command_is_there(text):
     options = {name for p in command.params for name in p.opts}
     for word in words[3:]:
         known = word in COMMANDS or word in options or word in choices or word.isdigit()
-        assert known, word
+        assert known or any(law.startswith(word) for law in LAWS), word
+
+
+def test_named_laws_are_there():
+    named = [word for word in QUOTED if re.fullmatch("[a-z][a-z ]*/[a-z ]+", word)]
+
+    assert len(named) > 8
+    assert [law for law in named if law not in LAWS] == []
 
 
 def test_the_table_of_what_stays_equal_is_that_of_the_code():

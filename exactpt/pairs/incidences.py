@@ -32,7 +32,8 @@ class ContactPoint:
         other_vertex: the vertex of ``other``; None for vertex-edge.
         point: the common point, each coordinate the nearest finite double.
         normal: the unit normal of the edge that points out of ``other``, by the even-odd rule
-            just after the point on the edge; where both sides are outside or both inside (of a
+            just after the point on the edge (as it was just before, if ``other`` is ``body``,
+            which touches itself); where both sides are outside or both inside (of a
             body without interior, or one that has crossed itself), to the side from which the
             vertex came, or to the right of the edge if it came along the line of that; None for
             vertex-vertex.

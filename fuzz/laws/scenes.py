@@ -23,11 +23,14 @@ from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
+from fuzz.questions.crossed import crossed_pair
+from fuzz.questions.pieces import planks, walkers
 from fuzz.questions.rounded import rounded_pair
+from fuzz.questions.scaled import scaled_pair, wheels
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.spinning import path_scene, spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
-from fuzz.questions.touching_rings import touching_pair
+from fuzz.questions.touching_rings import threaded, touching_pair
 from fuzz.small_scope.scope import planned
 
 __all__ = ["KINDS", "SOURCES", "drawn", "is_source", "made", "names_of"]
@@ -101,10 +104,16 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/rounded": rounded_pair,
     "tiny/fractions": fractions_scene,
     "tiny/rings": touching_pair,
+    "tiny/threads": threaded,
+    "tiny/scaled": scaled_pair,
+    "tiny/crossed": crossed_pair,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},
     "crowd": _crowd,
+    "walkers": walkers,
+    "planks": planks,
+    "wheels": wheels,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     "far/relay": relay,
     "far/convoy": convoy,
@@ -115,7 +124,8 @@ SOURCES: Final[dict[str, Source]] = {
 """Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
 of the small scope, and those of tests/cases; whole scenes of many bodies; contacts at the
 last double before bodies turn back, and far from the origin; bodies that turn at a constant rate or
-along poses; no bodies, for laws that draw their own cases. A new family is a new row here, and all
+along poses; bodies of many pieces of motion, long thin ones, and those of many vertices; no bodies,
+for laws that draw their own cases. A new family is a new row here, and all
 laws take it."""
 
 KINDS: Final[dict[str, tuple[str, ...]]] = {

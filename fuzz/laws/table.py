@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree, way_is_as_defined
-from fuzz.laws.choices import choices_are_each_pair_alone
+from fuzz.laws.choices import choices_are_each_pair_alone, chosen_contacts_are_part_of_all
 from fuzz.laws.confirmed import (
     contacts_are_confirmed,
     distances_are_confirmed,
@@ -13,6 +13,7 @@ from fuzz.laws.confirmed import (
     spaces_are_confirmed,
     unions_are_confirmed,
 )
+from fuzz.laws.contacts import bodies_touch_in_their_intervals
 from fuzz.laws.costs import (
     bystander_costs_nothing,
     later_end,
@@ -21,7 +22,7 @@ from fuzz.laws.costs import (
     one_far_body,
     one_fast_body,
 )
-from fuzz.laws.distances import clearance_is_the_distance
+from fuzz.laws.distances import clearance_is_the_distance, surroundings_are_of_each_pair
 from fuzz.laws.drawn import (
     as_asked,
     curves_are_within_their_errors,
@@ -41,6 +42,7 @@ from fuzz.laws.irrational import irrational_tiling_is_that_just_after
 from fuzz.laws.law import Law
 from fuzz.laws.limits import ended_search_is_true
 from fuzz.laws.order import distances_are_ordered_as_their_values
+from fuzz.laws.points import points_are_where_bodies_touch
 from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
@@ -84,14 +86,19 @@ TILED: Final = ("whole", *FAMILY)
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
         as_defined("first contact", several=4),
-        (*TINY, *CLOSE, "tiny/rounded", "case"),
+        (*TINY, *CLOSE, "tiny/rounded", "tiny/scaled", "case"),
         share=4,
         most=30,
     ),
     "first contact/methods": Law(
         two_ways_agree("first contact"),
-        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far"),
+        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far", "planks", "tiny/scaled"),
         share=3,
+    ),
+    "first contact/points": Law(
+        points_are_where_bodies_touch,
+        ("tiny/crossed", *FAMILY, *MOVING, "radii", "rings", "tiny/rounded", "tiny/scaled", "pair"),
+        share=0.5,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
@@ -112,13 +119,29 @@ LAWS: Final[dict[str, Law]] = {
         share=1.5,
         most=14,
     ),
+    "contacts/methods": Law(
+        two_ways_agree("contacts"),
+        (*FAMILY, "pair+awkward", "radii", "rings", "tiny/rings", "walkers", "tiny/scaled"),
+        share=0.5,
+        most=60,
+    ),
+    "contacts/times": Law(
+        bodies_touch_in_their_intervals,
+        ("whole", *FAMILY, *MOVING, "radii", "rings", "walkers", "planks", "wheels"),
+    ),
     "pairs/images": Law(
         pairs_of_image, ("family", *MOVING, "pair", "tiny/distant", "pair+nudged"), share=1.5
     ),
     "first within/reference": Law(
         as_defined("first within"),
-        ("tiny/distant", "tiny/crowded", "tiny/rounded", "tiny/distant+nudged"),
+        ("tiny/distant", "tiny/crowded", "tiny/rounded", "tiny/distant+nudged", "tiny/touching"),
         most=14,
+    ),
+    "first within/methods": Law(
+        two_ways_agree("first within"),
+        (*FAMILY, *MOVING, "crowd", "radii", "rings", "tiny/scaled", "walkers", "wheels"),
+        share=0.5,
+        most=60,
     ),
     "distance/reference": Law(
         as_defined("distance"),
@@ -127,11 +150,25 @@ LAWS: Final[dict[str, Law]] = {
         most=40,
     ),
     "distance/below": Law(
-        as_defined("below"), ("tiny/distant", "tiny/pair", "tiny/distant+awkward"), most=10
+        as_defined("below"),
+        ("tiny/distant", "tiny/pair", "tiny/rounded", "tiny/distant+awkward"),
+        most=10,
     ),
     "distance/clearance": Law(
         clearance_is_the_distance,
-        (*MOVING, "family", "pair+nudged", "tiny/distant"),
+        (
+            *MOVING,
+            "turning+awkward",
+            "deforming+awkward",
+            "family",
+            "pair+nudged",
+            "tiny/distant",
+            "tiny/rounded",
+            "radii",
+            "wheels",
+            "wheels",
+        ),
+        share=4,
         most=60,
     ),
     "distance/order": Law(
@@ -139,8 +176,34 @@ LAWS: Final[dict[str, Law]] = {
         ("tiny/rounded", "radii", "tiny/distant", "radii+awkward"),
         share=0.5,
     ),
+    "distance/least": Law(
+        as_defined("least distance"),
+        ("tiny/distant", "tiny/rounded", "tiny/pair+awkward", "tiny/distant+nudged", "pair"),
+        share=0.5,
+        most=10,
+    ),
+    "distance/surroundings": Law(
+        surroundings_are_of_each_pair,
+        ("tiny/crowded", "tiny/fractions", "family", "tiny/crowded+awkward", "radii"),
+        share=0.5,
+        most=30,
+    ),
     "new contact/reference": Law(
-        as_defined("new contact"), ("tiny/touching", "tiny/meeting"), most=14
+        as_defined("new contact"),
+        (
+            "tiny/touching",
+            "tiny/meeting",
+            "tiny/rounded",
+            "tiny/threads",
+            "tiny/touching+awkward",
+        ),
+        most=18,
+    ),
+    "new contact/methods": Law(
+        two_ways_agree("new contact"),
+        (*FAMILY, *MOVING, "radii", "rings", "tiny/touching+awkward", "pair+nudged"),
+        share=0.5,
+        most=60,
     ),
     "space/places": Law(
         places_are_as_defined,
@@ -199,6 +262,12 @@ LAWS: Final[dict[str, Law]] = {
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
         most=24,
     ),
+    "contacts/choices": Law(
+        chosen_contacts_are_part_of_all,
+        ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
+        share=0.5,
+        most=24,
+    ),
     "reference/reference": Law(
         definitions_agree,
         ("tiny/pair", "tiny/meeting", "tiny/rounded", "tiny/fractions", "tiny/pair+nudged"),
@@ -229,9 +298,7 @@ LAWS: Final[dict[str, Law]] = {
         way_is_as_defined("first contact", "pairs"),
         ("far/convoy", "far/relay", "far/convoy", "far/relay+awkward"),
     ),
-    "distance/moving": Law(as_asked("moving"), ("own",), share=3),
     "budget/looks": Law(as_asked("budgets"), ("own",)),
-    "distance/minimum": Law(as_asked("distance"), ("own",), share=0.5),
     "tiling/flips": Law(as_asked("flips"), ("own",)),
     "description/same": Law(descriptions_change_nothing, ("own",)),
     "exchange/scenes": Law(

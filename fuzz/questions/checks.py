@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from itertools import combinations, pairwise
+from collections.abc import Callable
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
-from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.algebraic_value import quotient_at
-from exactpt.kernel.numbers import QQ, ZZ, rational
-from exactpt.pairs.approach import Approach, first_within
-from exactpt.pairs.clearance import Clearance, ClearancePiece
-from exactpt.pairs.distance import distance
-from exactpt.pairs.intervals import contact_intervals
+from exactpt.kernel.numbers import QQ, rational
+from exactpt.pairs.approach import first_within
+from exactpt.pairs.clearance import Clearance
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.flip import flip
@@ -25,10 +19,7 @@ from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.simulation.simulation import Simulation
-from exactpt.testing import reference
-from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import audit_certificates
-from exactpt.testing.reference.shapes import bodies_meet
 from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.tiling.engine import Engine
@@ -36,20 +27,15 @@ from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal
 from fuzz.questions.batched import wrong_in_batch
-from fuzz.questions.below import wrong_intervals
 from fuzz.questions.budgets import wrong_at_the_end
-from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
 from fuzz.questions.free_space import wrong_path, wrong_place
 from fuzz.questions.in_arrays import wrong_in_arrays
-from fuzz.questions.moving import wrong_clearance
-from fuzz.questions.rounded import rounded_pair, wrong_answer
-from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.scenes import distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, path_scene, spinning_scene
 from fuzz.questions.stated import stated_case, wrong_after_moves, wrong_at_the_start
-from fuzz.questions.tiny import touching_scene
 from fuzz.questions.touching_rings import touching_pair, wrong_validity
 from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
 from fuzz.small_scope.look import looks
@@ -91,23 +77,6 @@ def checked(question: str, seed: int, number: int) -> Checked:
     return QUESTIONS[question](Random(f"{question} {seed} {number}"))
 
 
-def _distance(random: Random) -> Checked:
-    """first_within, distance and clearance of two bodies."""
-    scene = distant_scene(random)
-    gap = clearance(scene, "a", "b")
-    squared = _asked(random, scene, gap)
-    time = first_within(scene, "a", "b", distance_squared=squared)
-    a, b = scene.bodies
-    expected = reference.first_within(a, b, scene.time, squared)
-    fault = None
-    if time != expected:
-        fault = f"first_within {squared}: {time}, not {expected}"
-    kind = "never" if time is None else "at the start" if time == scene.start else "later"
-    if time is not None and time > scene.start and time == gap.minimum.time:
-        kind = "a graze, or the end"
-    return Checked(scene, kind, fault or _wrong_distance(random, scene, gap))
-
-
 def _asked(random: Random, scene: Scene, gap: Clearance) -> QQ:
     """A squared distance: small, that at some time, or the least if that is rational."""
     least = gap.minimum.squared.simplified()
@@ -118,127 +87,6 @@ def _asked(random: Random, scene: Scene, gap: Clearance) -> QQ:
     return random.choice(choices)
 
 
-def _wrong_distance(random: Random, scene: Scene, gap: Clearance) -> str | None:
-    """Return the fault of distances at times, the pieces, or the minimum."""
-    ends = AlgebraicNumber(scene.exact_start), AlgebraicNumber(scene.exact_end)
-    if (gap.pieces[0].start, gap.pieces[-1].end) != ends:
-        return "the pieces do not cover the time span"
-    for before, after in pairwise(gap.pieces):
-        if before.end != after.start or _value(before, before.end) != _value(after, after.start):
-            return f"a jump of the distance at {before.end}"
-    span = scene.exact_end - scene.exact_start
-    samples = {*(scene.exact_start + span * k / 8 for k in range(9))}
-    samples.add(scene.exact_start + span * random.randint(0, 997) / 997)
-    least = gap.minimum.squared
-    for t in sorted(samples):
-        nearest = reference.nearest(scene.bodies[0], scene.bodies[1], t)
-        if difference := disagreement(nearest, distance(scene, "a", "b", at=t)):
-            return f"distance at {t}: {difference}"
-        expected = nearest.core_squared
-        if gap.squared(t) != expected:
-            return f"clearance at {t}: {gap.squared(t)}, not {expected}"
-        if least.compare_rational(rational(expected)) > 0:
-            return f"the minimum {least} is more than {expected} at {t}"
-    return _wrong_minimum(scene, gap)
-
-
-def _wrong_minimum(scene: Scene, gap: Clearance) -> str | None:
-    """The least distance is reached at its time and not before; a little less is never."""
-    time, squared = gap.minimum
-    a, b = scene.bodies
-    squared = squared.simplified()
-    if squared.is_rational:
-        first = reference.first_within(a, b, scene.time, squared.exact_low)
-        if first != time:
-            return f"the minimum is first at {first}, not at {time}"
-        below = squared.exact_low - QQ(1, 10**30)
-    else:
-        while squared.exact_low <= 0 or squared.exact_high - squared.exact_low > QQ(1, 10**30):
-            squared.refine()
-        if reference.first_within(a, b, scene.time, squared.exact_high) is None:
-            return f"the minimum {squared} is never reached"
-        below = squared.exact_low
-    if below >= 0 and reference.first_within(a, b, scene.time, below) is not None:
-        return f"less than the minimum {squared} is reached"
-    return None
-
-
-def _value(piece: ClearancePiece, t: AlgebraicNumber) -> AlgebraicNumber:
-    n, d = (tuple(map(ZZ, f)) for f in (piece.numerator, piece.denominator))
-    return quotient_at(n, d, t)
-
-
-def _approach(random: Random) -> Checked:
-    """first_within of any two bodies."""
-    scene = crowded_scene(random)
-    squared = QQ(random.choice([0, 0, 1, 2]), random.choice([1, 4, 9]))
-    found = first_within(scene, distance_squared=squared)
-    times = []
-    for a, b in combinations(scene.bodies, 2):
-        time = reference.first_within(a, b, scene.time, squared)
-        if time is not None:
-            times.append((time, (a.name, b.name)))
-    least = min((time for time, _ in times), default=None)
-    expected = None
-    if least is not None:
-        expected = Approach(least, tuple(sorted(ab for time, ab in times if time == least)))
-    kind = "never" if found is None else "at the start" if found.time == scene.start else "later"
-    kind += f", {len(found.pairs)} pairs" if found else ""
-    fault = None if found == expected else f"within {squared}: {found}, not {expected}"
-    return Checked(scene, kind, fault)
-
-
-def _intervals(random: Random) -> Checked:
-    """contact_intervals of two bodies."""
-    scene = meeting_scene(random)
-    a, b = scene.bodies
-    found = contact_intervals(scene, a.name, b.name)
-    touches = sum(i.start == i.end for i in found)
-    kind = f"{len(found)} intervals, {touches} of them touches"
-    difference = disagreement(reference.contact_intervals(a, b, scene.time), found)
-    return Checked(scene, kind, None if difference is None else str(difference))
-
-
-def _after_start(random: Random) -> Checked:
-    """The first new contact."""
-    scene = touching_scene(random)
-    contact = plain_contact(first_contact(scene, after_start=True))
-    expected = reference.first_new_contact(scene)
-    if contact is None:
-        fault = None if expected is None else f"no new contact, not {expected}"
-        return Checked(scene, "none", fault)
-    is_again = expected is not None and not expected[1].isdisjoint(_touching(scene))
-    kind = f"{contact.kind}, {'again' if is_again else 'first'}"
-    fault = None
-    if expected is None or (contact.time, contact.names) != expected:
-        fault = f"{contact}, not {expected}"
-    elif contact.incidences != (defined := _incidences(scene, *expected)):
-        fault = f"{contact}, not {defined}"
-    return Checked(scene, kind, fault)
-
-
-def _incidences(
-    scene: Scene, time: AlgebraicNumber, pairs: Collection[frozenset[str]]
-) -> frozenset[reference.NamedIncidence]:
-    """Return the incidences at a time of these pairs of bodies, from the definition."""
-    return reference.incidences(scene, time, [(min(pair), max(pair)) for pair in pairs])
-
-
-def _chosen(random: Random) -> Checked:
-    """first_contact with ``since`` and ``ignoring``, and Planner."""
-    return Checked(*wrong_choice(random))
-
-
-def _touching(scene: Scene) -> set[frozenset[str]]:
-    """Return the names of any two bodies that share a point at the start."""
-    points = {body.name: body.exact_at(scene.exact_start) for body in scene.bodies}
-    return {
-        frozenset({a.name, b.name})
-        for a, b in combinations(scene.bodies, 2)
-        if bodies_meet(a, points[a.name], b, points[b.name])
-    }
-
-
 def _cgal(random: Random) -> Checked:
     """Signs at the time of first_within, and the minimum of clearance, by CGAL."""
     scene = distant_scene(random)
@@ -247,15 +95,6 @@ def _cgal(random: Random) -> Checked:
     time = first_within(scene, "a", "b", distance_squared=squared)
     signs, fault = by_cgal.compare(scene, gap, squared, time)
     return Checked(scene, "never" if time is None else "within", fault, signs)
-
-
-def _rounded(random: Random) -> Checked:
-    """Intervals, first_within, distance and clearance of two bodies with radii."""
-    scene = rounded_pair(random)
-    met = contact_intervals(scene, *(body.name for body in scene.bodies))
-    touches = sum(i.start == i.end for i in met)
-    kind = f"{len(met)} intervals, {touches} of them touches"
-    return Checked(scene, kind, wrong_answer(random, scene))
 
 
 def _spin(random: Random) -> Checked:
@@ -380,16 +219,6 @@ def _overlay(random: Random) -> Checked:
     return Checked(drawing, drawing.kind, overlays.fault_of_drawing(drawing))
 
 
-def _below(random: Random) -> Checked:
-    """The intervals in which two bodies are within a distance."""
-    return Checked(*wrong_intervals(random))
-
-
-def _moving(random: Random) -> Checked:
-    """The clearance of two bodies of families, in each kind of motion."""
-    return Checked(*wrong_clearance(random))
-
-
 def _convoy(random: Random) -> Checked:
     """The first contact of a crowd that moves almost alike for a very long time."""
     return Checked(*wrong_in_convoy(random))
@@ -425,21 +254,13 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "flips": _flips,
     "overlay": _overlay,
     "filters": _filters,
-    "distance": _distance,
-    "chosen": _chosen,
     "restored": _restored,
-    "approach": _approach,
-    "intervals": _intervals,
-    "below": _below,
-    "moving": _moving,
     "convoy": _convoy,
     "places": _places,
     "paths": _paths,
     "budgets": _budgets,
     "batch": _batch,
     "arrays": _arrays,
-    "after-start": _after_start,
-    "rounded": _rounded,
     "touching-rings": _touching_rings,
     "spin": _spin,
     "cgal": _cgal,

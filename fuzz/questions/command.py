@@ -112,14 +112,14 @@ class Questions(Check):
 )
 @options(1000)
 def questions(chosen: Options, asked: tuple[str, ...], keep: Path) -> None:
-    """Compare answers about distance, intervals and new contacts with their definitions.
+    """Compare answers with their definitions, by questions that draw their own cases.
 
-    Several questions are taken in turn.
+    Several questions are taken in turn. Most others are laws: python -m fuzz run.
 
     \b
     Examples:
-      python -m fuzz questions --question distance --cases 20000
-      python -m fuzz questions --question after-start --seed 7 --start 5000
+      python -m fuzz questions --question space --cases 20000
+      python -m fuzz questions --question spin --seed 7 --start 500
     """
     names = asked or tuple(QUESTIONS)
     if "cgal" in names:

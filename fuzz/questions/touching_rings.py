@@ -44,8 +44,7 @@ from exactpt.testing.reference.valid import Point, dissected, is_valid
 from exactpt.testing.scenes.rings import as_parts, middle_of, touching_parts
 
 __all__ = [
-    "random_parts", "touching_pair", "wrong_answer",
-    "wrong_validity",
+    "random_parts", "threaded", "touching_pair", "wrong_answer", "wrong_validity",
 ]  # fmt: skip
 
 ATTEMPTS = 12
@@ -102,6 +101,37 @@ def touching_pair(random: Random) -> Scene:
         return Scene([a, b], (0, 2))
     except InputError:  # a chain that is flat, and meets itself as a polygon
         return touching_pair(random)
+
+
+def threaded(random: Random) -> Scene:
+    """A body whose rings touch, and a segment or chain that leads through one of these points.
+
+    The thread may be in a hole on both sides of it, in the interior, or outside.
+    """
+    while True:
+        body = Body("b", parts=as_parts(touching_parts(random, (QQ(0), QQ(0)))))
+        thread = _thread(random, body)
+        if thread is not None:
+            break
+    return Scene([body, Body("thread", thread, _slide(random), closed=False)], (0, 2))
+
+
+def _thread(random: Random, body: Body) -> list[Point] | None:
+    """Return a path through a point in which rings touch; None if there is none, or it is flat."""
+    if not body.exact_ring_touches:
+        return None
+    x, y = random.choice(body.exact_ring_touches)
+    step = QQ(1, random.choice([4, 40]))
+    u, v, w, z = (step * random.randint(-3, 3) for _ in range(4))
+    first, middle, last = (x + u, y + v), (x, y), (x + w, y + z)
+    if u * z == v * w:
+        return None
+    return [first, middle, last] if random.random() < 0.5 else [first, (x - u, y - v)]
+
+
+def _slide(random: Random) -> Motion:
+    u, v = random.randint(-1, 1), random.randint(-1, 1)
+    return random.choice([Translation([0]), Translation([0, u], [0, v])])
 
 
 def _radius(random: Random) -> str:
@@ -189,8 +219,8 @@ def _differences(random: Random, scene: Scene) -> Iterator[str]:
     alone = Scene([b], scene.time)
     if first_contact(alone) is not None or (contact is not None and contact.kind == "self"):
         yield "a contact of a body with itself"
-    # The definition of new contacts knows no radii, and takes long for motions of many pieces.
-    if not (scene.has_radius or _is_approximated(a) or _is_approximated(b)):
+    # The definition of new contacts takes long for motions of many pieces.
+    if not (_is_approximated(a) or _is_approximated(b)):
         new, new_expected = first_contact(scene, after_start=True), new_contact(a, b, scene.time)
         if (None if new is None else new.time) != new_expected:
             yield f"after_start: {new}, not {new_expected}"

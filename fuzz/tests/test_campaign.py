@@ -381,14 +381,14 @@ def test_a_question_with_a_wrong_answer_is_a_failure(monkeypatch):
     def wrong(random):
         return Checked(Scene([], (0, 1)), "never", "wrong" if random.random() < 0.5 else None)
 
-    monkeypatch.setitem(QUESTIONS, "distance", wrong)
-    result = run_case(Case(4, "questions/distance", 7), witnesses=["reference"])
+    monkeypatch.setitem(QUESTIONS, "convoy", wrong)
+    result = run_case(Case(4, "questions/convoy", 7), witnesses=["reference"])
 
-    numbers = [n for n in range(32, 40) if checked("distance", 7, n).fault]
-    again = "wrong\n  again: python -m fuzz questions --question distance --seed 7 --start"
+    numbers = [n for n in range(32, 40) if checked("convoy", 7, n).fault]
+    again = "wrong\n  again: python -m fuzz questions --question convoy --seed 7 --start"
     assert 0 < len(numbers) < 8
     assert [f.why for f in result.findings] == [
-        f"distance, case {n}: {again} {n} --cases 1" for n in numbers
+        f"convoy, case {n}: {again} {n} --cases 1" for n in numbers
     ]
     assert {column for _, column in result.counts} == {"cases", "questions"}
 

@@ -3,7 +3,8 @@
 Two bodies come into a new contact when they meet after they have been apart, or when they
 overlap just after a time but not just before it (at the start of the scene: not then). They
 overlap if a point of one is in the interior of the other: that is decided between any two critical
-times, by vertical lines. Chains overlap if they cross (`exactpt.testing.reference.crossing`).
+times, by vertical lines. Chains overlap if they cross (`exactpt.testing.reference.crossing`),
+bodies with radii if their cores are nearer than the sum of these.
 """
 
 from __future__ import annotations
@@ -14,14 +15,17 @@ from typing import TypeAlias
 
 from exactpt.geometry.predicates import Point, orient2d
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene, scene_of
 from exactpt.testing.reference.contact import counted_pairs, first_contact
 from exactpt.testing.reference.crossing import chains_cross
 from exactpt.testing.reference.features import bodies_meet, coordinate_differences, orientations
+from exactpt.testing.reference.nearest import nearest
 from exactpt.testing.reference.shapes import Points, edges_of, is_on_segment, segments_cross
-from exactpt.testing.reference.times import critical_times, pieces, tracks_after
+from exactpt.testing.reference.times import Tracks, critical_times, pieces, tracks_after
+from exactpt.testing.reference.within import changes_within, is_within
 
 __all__ = ["first_new_contact", "new_contact", "overlap"]
 
@@ -43,7 +47,7 @@ def first_new_contact(
     (AlgebraicNumber('4'), [['ball', 'wall']])
 
     Args:
-        scene: the scene; its bodies have no radii.
+        scene: the scene.
         between: the pairs of names that count, twice the same name for a body with itself; all
             if not given.
     """
@@ -82,29 +86,43 @@ def new_contact(a: Body, b: Body, time: Sequence[Rational]) -> AlgebraicNumber |
         time: the start and the end of the time span.
     """
     start, end = map(rational, time)
+    squared = (a.exact_radius + b.exact_radius) ** 2
+
+    def meet(t: AlgebraicNumber, p: Tracks, q: Tracks) -> bool:
+        if squared:
+            return is_within(t, a, b, p, q, squared)
+        return bodies_meet(t, a, b, p, q)
+
     last = AlgebraicNumber(start)
-    were_apart = not bodies_meet(last, a, b, *tracks_after(a, b, start))
+    were_apart = not meet(last, *tracks_after(a, b, start))
     overlapped = overlap(a, b, start)
     for piece in pieces(a, b, start, end):
         p, q = piece.first, piece.second
-        polynomials = [*orientations(p, q), *coordinate_differences(p, q)]
+        polynomials = changes_within(a, b, p, q, squared) if squared else _changes(p, q)
         for t in critical_times(polynomials, piece.begin, piece.end):
             middle = rational_between(last, t)
             overlap_now = overlap(a, b, middle)
             if overlap_now and not overlapped:
                 return last
             overlapped = overlap_now
-            were_apart = were_apart or not bodies_meet(AlgebraicNumber(middle), a, b, p, q)
-            if were_apart and bodies_meet(t, a, b, p, q):
+            were_apart = were_apart or not meet(AlgebraicNumber(middle), p, q)
+            if were_apart and meet(t, p, q):
                 return t
             last = t
     return None
 
 
+def _changes(p: Tracks, q: Tracks) -> Iterator[IntPoly]:
+    """Yield the polynomials without whose roots two bodies go on to overlap, or not to."""
+    yield from orientations(p, q)
+    yield from coordinate_differences(p, q)
+
+
 def overlap(a: Body, b: Body, at: Rational) -> bool:
     """Return True if two bodies overlap at a rational time: one has a point inside of the other.
 
-    Of two bodies without interior: they cross.
+    Of two bodies without interior: they cross. Of bodies with radii: their cores are nearer than
+    the sum of these.
 
     >>> from exactpt import Body
     >>> box = Body("box", [(0, 0), (4, 0), (4, 4), (0, 4)])
@@ -117,6 +135,9 @@ def overlap(a: Body, b: Body, at: Rational) -> bool:
         at: the time.
     """
     t = rational(at)
+    reach = a.exact_radius + b.exact_radius
+    if reach:
+        return nearest(a, b, t).core_squared < reach**2
     if not a.has_interior and not b.has_interior:
         return chains_cross(a.exact_at(t), b.exact_at(t))
     p, q = _sheared(a.exact_at(t), b.exact_at(t))

@@ -30,7 +30,7 @@ from exactpt.testing.reference.times import (
     tracks_after,
 )
 
-__all__ = ["first_within", "intervals_within", "is_within"]
+__all__ = ["changes_within", "first_within", "intervals_within", "is_within"]
 
 
 def intervals_within(
@@ -56,10 +56,7 @@ def intervals_within(
         return is_within(t, a, b, p, q, squared)
 
     def polynomials(p: Tracks, q: Tracks) -> Iterator[IntPoly]:
-        yield from orientations(p, q)
-        for corner in corners(a, b, p, q):
-            yield from sides_of_foot(corner)
-        yield from _excesses(a, b, p, q, squared)
+        return changes_within(a, b, p, q, squared)
 
     return intervals_of(states(a, b, start, end, holds, polynomials))
 
@@ -118,6 +115,22 @@ def is_within(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks, squared: QQ) -
         t.sign_of(excess(squared_from_line(corner), squared)) <= 0 and has_foot(t, corner)
         for corner in corners(a, b, p, q)
     )
+
+
+def changes_within(a: Body, b: Body, p: Tracks, q: Tracks, squared: QQ) -> Iterator[IntPoly]:
+    """Yield the polynomials without whose roots two cores stay within a distance, or farther.
+
+    Args:
+        a: a body.
+        b: another one.
+        p: the trajectories of the vertices of the first.
+        q: those of the second.
+        squared: the square of the distance.
+    """
+    yield from orientations(p, q)
+    for corner in corners(a, b, p, q):
+        yield from sides_of_foot(corner)
+    yield from _excesses(a, b, p, q, squared)
 
 
 def _excesses(a: Body, b: Body, p: Tracks, q: Tracks, squared: QQ) -> Iterator[IntPoly]:

@@ -178,7 +178,7 @@ def points_and_polynomials_tell_the_same_of_a_rational_time(random):
 def a_new_contact_is_the_first_one_if_there_is_none_at_the_start(random):
     scene = some_scene(random)
     first = reference.first_contact(scene)
-    if scene.has_radius or (first is not None and first.kind == "initial"):
+    if first is not None and first.kind == "initial":
         return False
     assert reference.first_new_contact(scene) == (first and (first.time, first.names))
     return first is not None

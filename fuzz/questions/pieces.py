@@ -1,0 +1,57 @@
+"""Scenes whose bodies are near each other in few pieces of motion, or along a line only.
+
+What boxes of pieces and oriented boxes leave out matters here: bodies whose velocities change
+often, and long thin ones side by side.
+"""
+
+from __future__ import annotations
+
+import math
+from random import Random
+from typing import Final
+
+from exactpt import Body, Pieces, Rigid, Scene, Translation
+from exactpt.motion.motions import Motion
+
+__all__ = ["planks", "walkers"]
+
+PIECES: Final = 20
+"""Number of pieces of the motion of a walker."""
+
+LENGTH: Final = 1000
+"""Length of a plank, of which the ends are a tenth of a unit wide."""
+
+
+def walkers(random: Random) -> Scene:
+    """Return boxes that change their velocities often, at times of their own."""
+    bodies = [_walker(f"w{k}", random) for k in range(random.choice([2, 3, 6]))]
+    if random.random() < 0.3:
+        bodies.append(Body("mill", [(0, 0), (40, 0)], Rigid([0, 1])))
+    return Scene(bodies, time=(0, 100))
+
+
+def _walker(name: str, random: Random) -> Body:
+    x, y, now = random.randint(-12, 12), random.randint(-12, 12), 0
+    pieces: list[tuple[int | None, Motion]] = []
+    for _ in range(PIECES - 1):
+        until = now + random.randint(1, 9)
+        u, v = random.randint(-3, 3), random.randint(-3, 3)
+        pieces.append((until, Translation([x - u * now, u], [y - v * now, v])))
+        x, y, now = x + u * (until - now), y + v * (until - now), until
+    pieces.append((None, Translation([x], [y])))
+    return Body(name, [(0, 0), (2, 0), (2, 1), (0, 1)], Pieces(pieces))
+
+
+def planks(random: Random) -> Scene:
+    """Return long thin triangles side by side, at angles about one direction, that drift apart."""
+    angle = math.radians(random.choice([45, 20, 70, 90]))
+    spread = math.radians(random.choice([0, 0.01, 0.1]))
+    bodies = []
+    for k in range(random.choice([6, 20])):
+        x, y = -1.5 * k * math.sin(angle), 1.5 * k * math.cos(angle)
+        turn = angle + random.uniform(-spread, spread)
+        end = x + LENGTH * math.cos(turn), y + LENGTH * math.sin(turn)
+        tip = end[0] - 0.1 * math.sin(turn), end[1] + 0.1 * math.cos(turn)
+        drift = Translation([0, random.uniform(-0.1, 0.1)], [0, random.uniform(-0.1, 0.1)])
+        bodies.append(Body(f"p{k}", [(x, y), end, tip], drift))
+    return Scene(bodies, time=(0, 3))
