@@ -39,7 +39,17 @@ from fuzz.laws.runs import (
     restored_run_goes_on,
 )
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
-from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
+from fuzz.laws.tilings import (
+    arrays_are_tiled_as_bodies,
+    at_once_is_one_by_one,
+    events_lead_to_the_next_tiling,
+    filters_decide_exactly,
+    general_position_needs_no_rebuild,
+    kinetic_is_static,
+    most_decisions_are_of_filters,
+    tiling_is_as_defined,
+    tilings_at_events_are_whole,
+)
 from fuzz.laws.together import (
     array_queries_are_first_contacts,
     arrays_are_single_calls,
@@ -61,8 +71,14 @@ COUNTED: Final = tuple(
 )  # fmt: skip
 """Whole scenes of families, in which costs are compared."""
 FAMILY: Final = ("family", "family+awkward", "family+thin")
-TILED: Final = ("whole", *FAMILY)
+TILED: Final = ("whole", *FAMILY, "many", "points")
 """Faults of tilings need many bodies; those of filters and of thin bodies need few."""
+GENERAL: Final = tuple(
+    f"whole/{name}"
+    for name in ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces",
+                 "keyframed", "linear_points", "ballistic_points", "piecewise_points")
+)  # fmt: skip
+"""Families in general position."""
 
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
@@ -81,8 +97,29 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "corpus"), share=6),
     "tiling/filters": Law(
-        filters_decide_exactly, (*TILED, "family+nudged", "tiny/fractions"), share=4
+        filters_decide_exactly,
+        (*TILED, "family+nudged", "tiny/fractions", "general", "many+nudged"),
+        share=4,
     ),
+    "tiling/at once": Law(at_once_is_one_by_one, ("many", "whole", "family"), share=0.5),
+    "tiling/defined": Law(
+        tiling_is_as_defined,
+        ("points", "convex", "points+awkward", "convex+awkward", "whole/linear_points"),
+        most=40,
+    ),
+    "tiling/events": Law(
+        events_lead_to_the_next_tiling, ("whole", "points", "many", "convex+awkward"), share=0.5
+    ),
+    "tiling/whole": Law(
+        tilings_at_events_are_whole, ("whole", "family", "tiny/fractions", "corpus")
+    ),
+    "tiling/general position": Law(
+        general_position_needs_no_rebuild, (*GENERAL, "general", "many/scattered"), share=0.5
+    ),
+    "tiling/arrays": Law(
+        arrays_are_tiled_as_bodies, ("many/doubles", "many/doubles+rounded"), share=0.5
+    ),
+    "cost/filters": Law(most_decisions_are_of_filters, ("general",), share=0.5),
     "contacts/reference": Law(
         as_defined("contacts"),
         ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),

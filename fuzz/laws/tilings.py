@@ -2,14 +2,57 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from itertools import combinations, pairwise
 from random import Random
+from typing import Final, TypeAlias
 
-from exactpt import Scene, Simulation
+import numpy as np
+
+from exactpt import AlgebraicNumber, Body, Polynomial, RunEvent, Scene, Simulation, Translation
+from exactpt.kernel.numbers import fraction
+from exactpt.pseudotriangulation.snapshot import Snapshot
 from exactpt.testing import audit
-from fuzz.laws.law import refuse_unless
+from exactpt.testing.reference.greedy import ConvexBodies
+from exactpt.testing.reference.space import convex_hull
+from exactpt.testing.reference.tangents import tangents
+from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.questions import a_time, contact_value
 from fuzz.witnesses import Difference, tilings_of
 
-__all__ = ["a_tiling", "filters_decide_exactly", "kinetic_is_static"]
+__all__ = [
+    "a_tiling",
+    "arrays_are_tiled_as_bodies",
+    "at_once_is_one_by_one",
+    "events_lead_to_the_next_tiling",
+    "filters_decide_exactly",
+    "general_position_needs_no_rebuild",
+    "kinetic_is_static",
+    "most_decisions_are_of_filters",
+    "tiling_is_as_defined",
+    "tilings_at_events_are_whole",
+]
+
+AUDITS: Final = 40
+"""Number of steps of a run of which each is audited; of the later ones, one in `LATER` is."""
+
+LATER: Final = 8
+
+ODD: Final = 9973
+"""Number of parts of a time span: a prime, so that events at simple times are at none of them."""
+
+TIMES: Final = 8
+"""Number of times at which the tilings of a run are compared."""
+
+EXACT: Final = 0.01
+"""Maximum share of exact decisions in general position."""
+
+FEWEST: Final = 300
+"""Number of decisions from which their shares are compared."""
+
+Place: TypeAlias = tuple[Fraction, Fraction]
 
 
 def a_tiling(scene: Scene, random: Random) -> str:
@@ -30,8 +73,9 @@ def kinetic_is_static(scene: Scene, random: Random) -> str:
     audit(run)
     steps = 0
     while run.step():
-        audit(run)
         steps += 1
+        if steps <= AUDITS or random.randrange(LATER) == 0:
+            audit(run)
     ended = "no contact" if run.contact is None else "a contact"
     return f"{tiling}, {_some(steps)} steps, {ended}"
 
@@ -49,6 +93,301 @@ def filters_decide_exactly(scene: Scene, random: Random) -> str:
     if len(filtered) != len(exact):
         raise Difference(f"{tiling}: number of events", f"{len(filtered)}, exactly {len(exact)}")
     return f"{tiling}, {_some(len(exact))} events"
+
+
+def at_once_is_one_by_one(scene: Scene, random: Random) -> str:
+    """A search that reports no events ends in the state of a run by steps, with equal counts."""
+    tiling = a_tiling(scene, random)
+    by_steps, at_once = (Simulation(scene, tiling=tiling) for _ in range(2))
+    steps = 0
+    while by_steps.step():
+        steps += 1
+    contact = at_once.run_to_contact()
+    check_equal("contact", contact_value(contact), contact_value(by_steps.contact))
+    check_equal("counts", at_once.stats, by_steps.stats)
+    check_equal("state", _state(at_once), _state(by_steps))
+    return f"{tiling}, {_some(steps)} steps, {'no contact' if contact is None else 'a contact'}"
+
+
+def _state(run: Simulation) -> dict[str, object]:
+    """Return the state of a run, apart from the events that are still to be reported."""
+    return {key: value for key, value in run.to_json().items() if key not in ("pending", "sha256")}
+
+
+# Definitions
+
+
+def tiling_is_as_defined(scene: Scene, random: Random) -> str:
+    """The tiling of points, and the greedy one of convex bodies, are those of their definitions."""
+    are_points = all(body.size == 1 for body in scene.bodies)
+    name = "incremental" if are_points else "greedy"
+    refuse_unless(name in tilings_of(scene) and len(scene.bodies) > 1)
+    run = Simulation(scene, tiling=name)
+    for _ in run.run(until=fraction(a_time(scene, random, steps=97))):
+        pass
+    refuse_unless(run.contact is None)
+    tiling = run.snapshot()
+    places = [(node.x, node.y) for node in tiling.nodes]
+    found = {(edge.u, edge.v) for edge in tiling.diagonals}
+    expected = tangents(places) if are_points else _greedy_edges(scene.bodies, places)
+    check_equal(f"{name} tiling", sorted(found), sorted(expected))
+    return f"{name}, {_some(len(expected))} edges"
+
+
+def _greedy_edges(bodies: Sequence[Body], places: list[Place]) -> set[tuple[int, int]]:
+    """Return the edges of the greedy tiling of convex bodies in general position, by definition.
+
+    Raises:
+        LeftOutError: if a body is not convex, or three vertices are on one line, or two on a
+            vertical one.
+    """
+    refuse_unless(all(body.closed and not body.has_rings for body in bodies))
+    refuse_unless(len({x for x, _ in places}) == len(places))
+    refuse_unless(all(_turn(*three) for three in combinations(places, 3)))
+    outlines: list[list[int]] = []
+    for body in bodies:
+        first = sum(map(len, outlines))
+        outlines.append(_counter_clockwise(list(range(first, first + body.size)), places))
+    defined = ConvexBodies([[places[v] for v in outline] for outline in outlines])
+    ends = ((outlines[i][a], outlines[j][b]) for (i, a), (j, b) in defined.edges(defined.greedy()))
+    return {(min(u, v), max(u, v)) for u, v in ends}
+
+
+def _counter_clockwise(outline: list[int], places: list[Place]) -> list[int]:
+    """Return the vertices of a convex polygon in counter-clockwise order.
+
+    Raises:
+        LeftOutError: if it is not convex.
+    """
+    if len(outline) < 3:
+        return outline
+    around = [*outline, *outline[:2]]
+    turns = {_turn(*(places[v] for v in around[k : k + 3])) for k in range(len(outline))}
+    refuse_unless(len(turns) == 1)
+    return outline if turns == {1} else outline[::-1]
+
+
+def _turn(a: Place, b: Place, c: Place) -> int:
+    """Return 1 if three points turn left, -1 if right, 0 if they are on one line."""
+    left, right = (b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0])
+    return (left > right) - (left < right)
+
+
+# Tilings as users see them
+
+
+def tilings_at_events_are_whole(scene: Scene, random: Random) -> str:
+    """At each event the faces have three corners, and fill the hull of the bodies with them."""
+    tiling = a_tiling(scene, random)
+    run = Simulation(scene, tiling=tiling)
+    seen = 0
+    while run.contact is None and seen < AUDITS:
+        _check_corners(run)
+        if run.now.simplified().is_rational:
+            _check_area(run, scene)
+            seen += 1
+        if not run.step():
+            break
+    return f"{tiling}, {_some(seen)} tilings"
+
+
+def _check_corners(run: Simulation) -> None:
+    """Check that each face has three corners, and that its sides are edges."""
+    tiling = run.tiling
+    edges = {(edge.u, edge.v) for edge in tiling.edges}
+    for face in tiling.faces:
+        check_equal("number of corners", len(set(face.corners)), 3)
+        for u, v in pairwise([*face.nodes, face.nodes[0]]):
+            if (min(u, v), max(u, v)) not in edges:
+                raise Difference("side of a face", f"{u} {v} is no edge at {run.now!r}")
+
+
+def _check_area(run: Simulation, scene: Scene) -> None:
+    """Check that faces are left turns at their corners alone, and that nothing is left out."""
+    tiling = run.snapshot()
+    places: list[Place] = [(node.x, node.y) for node in tiling.nodes]
+    area = Fraction(0)
+    for face in tiling.faces:
+        around = [face.nodes[-1], *face.nodes, face.nodes[0]]
+        three = ([places[v] for v in around[k : k + 3]] for k in range(len(face.nodes)))
+        convex = {v for v, points in zip(face.nodes, three, strict=True) if _turn(*points) > 0}
+        check_equal("corners", convex, set(face.corners))
+        area += _doubled_area([places[v] for v in face.nodes])
+    area += sum(_doubled_area_of(body, run.now) for body in scene.bodies)
+    hull = convex_hull(places) if places else []
+    check_equal("area of faces and bodies", area, abs(_doubled_area(hull)))
+
+
+def _doubled_area_of(body: Body, time: AlgebraicNumber) -> Fraction:
+    """Return twice the area of a body, holes left out."""
+    if not body.closed or body.size < 3:
+        return Fraction(0)
+    points = body.at(fraction(time.simplified().exact_low))
+    if not body.has_rings:
+        return abs(_doubled_area(points))
+    return sum(
+        (-1 if k else 1) * abs(_doubled_area([points[v] for v in ring]))
+        for part in body.parts
+        for k, ring in enumerate(part)
+    )
+
+
+def _doubled_area(points: Sequence[Place]) -> Fraction:
+    """Return twice the signed area of a polygon."""
+    return sum(
+        (a[0] * b[1] - a[1] * b[0] for a, b in pairwise([*points, *points[:1]])),
+        Fraction(0),
+    )
+
+
+# Events
+
+
+def events_lead_to_the_next_tiling(scene: Scene, random: Random) -> str:
+    """The edges that events remove and add make of one tiling a later one, and of a fan too."""
+    are_points = all(body.size == 1 for body in scene.bodies)
+    are_polygons = all(body.closed and body.size > 2 for body in scene.bodies)
+    refuse_unless(are_points or are_polygons)  # copies of a vertex have edges of their own
+    tiling = "incremental" if are_points else a_tiling(scene, random)
+    refuse_unless(tiling in tilings_of(scene))
+    run = Simulation(scene, tiling=tiling, fan=are_points)
+    edges: Counter[_Edge] | None = None
+    compared = 0
+    for time in _odd_times(scene, random):
+        events = list(run.run(until=time))
+        if run.contact is not None:
+            break
+        if any(event.time == time for event in events):
+            edges = None  # the tiling at an event is neither that before nor that after it
+            continue
+        expected = _edges_between_bodies(run.snapshot(), are_points)
+        if edges is not None:
+            _replay(edges, events)
+            check_equal("edges", +edges, expected)
+            compared += bool(events)
+        edges = expected
+    return f"{tiling}, {_some(compared)} changes"
+
+
+_Edge: TypeAlias = tuple[str, frozenset[str]]
+"""The names of two vertices, and "tiling" or "fan", which has the edges of the tiling too."""
+
+
+def _odd_times(scene: Scene, random: Random) -> list[Fraction]:
+    """Return some times in the span of a scene, at which there is hardly ever an event."""
+    span = fraction(scene.exact_end - scene.exact_start)
+    parts = sorted(random.sample(range(1, ODD), TIMES))
+    return [fraction(scene.exact_start) + span * Fraction(k, ODD) for k in parts]
+
+
+def _edges_between_bodies(tiling: Snapshot, with_fan: bool) -> Counter[_Edge]:  # noqa: FBT001
+    """Return the diagonals between two bodies; those within one may lie inside of it."""
+    names = [f"{node.body}:{node.vertex}" for node in tiling.nodes]
+    diagonals = [(edge.u, edge.v) for edge in tiling.diagonals]
+    parts = {"tiling": diagonals}
+    if with_fan:
+        parts["fan"] = [*diagonals, *tiling.fan]  # each once: no fan edge is a diagonal
+    return Counter(
+        (part, frozenset((names[u], names[v])))
+        for part, edges in parts.items()
+        for u, v in edges
+        if tiling.nodes[u].body != tiling.nodes[v].body
+    )
+
+
+def _replay(edges: Counter[_Edge], events: Iterable[RunEvent]) -> None:
+    """Apply events to the edges between bodies."""
+    for event in events:
+        part = "fan" if event.kind == "fan" else "tiling"
+        for ends, count in ((event.removed, -1), (event.added, 1)):
+            for u, v in ends:
+                if u.rpartition(":")[0] != v.rpartition(":")[0]:
+                    edges[part, frozenset((u, v))] += count
+
+
+# Counts
+
+
+def general_position_needs_no_rebuild(scene: Scene, random: Random) -> str:
+    """In general position each event is repaired alone: nothing is built anew, nothing flipped."""
+    tiling = a_tiling(scene, random)
+    run = Simulation(scene, tiling=tiling)
+    events = len(list(run.run()))
+    refuse_unless(run.kinetic is not None)
+    check_equal("rebuilds", run.stats["rebuilds"], 0)
+    check_equal("flips in repairs", run.stats["flips"], 0)
+    return f"{tiling}, {_some(events)} events"
+
+
+def most_decisions_are_of_filters(scene: Scene, random: Random) -> str:
+    """In general position filters decide nearly all: exact decisions are fewer than a hundredth."""
+    run = Simulation(scene, tiling=a_tiling(scene, random))
+    list(run.run())
+    exact, filtered = (int(str(run.stats[key])) for key in ("exact", "filtered"))
+    refuse_unless(exact + filtered >= FEWEST)
+    if exact > EXACT * (exact + filtered):
+        raise Difference("exact decisions", f"{exact}, of filters {filtered}")
+    return "none is exact" if exact == 0 else "some are exact"
+
+
+# Arrays
+
+
+def arrays_are_tiled_as_bodies(scene: Scene, random: Random) -> str:
+    """A scene from arrays has the tiling, the counts and the events of its bodies."""
+    tiling = a_tiling(scene, random)
+    of_arrays, of_bodies = (
+        Simulation(_in_arrays(scene), tiling=tiling),
+        Simulation(scene, tiling=tiling),
+    )
+    if of_bodies.contact is None:
+        check_equal("tiling", of_arrays.tiling.to_json(), of_bodies.tiling.to_json())
+    check_equal("counts at the start", of_arrays.stats, of_bodies.stats)
+    events, expected = ([e.to_json() for e in run.run()] for run in (of_arrays, of_bodies))
+    check_equal("events", events, expected)
+    return f"{tiling}, {_some(len(events))} events"
+
+
+def _in_arrays(scene: Scene) -> Scene:
+    """Return the scene of the same bodies of doubles, in arrays.
+
+    Raises:
+        LeftOutError: if a vertex is not constant and a double, or a motion not linear.
+    """
+    corners: list[list[float]] = []
+    offsets, paths = [0], []
+    for body in scene.bodies:
+        refuse_unless(isinstance(body.motion, Translation) and not body.has_rings)
+        corners += [[_constant(x), _constant(y)] for x, y in body.vertices]
+        offsets.append(len(corners))
+        paths.append([_linear(body.motion.x), _linear(body.motion.y)])
+    return Scene.from_arrays(
+        np.array(corners),
+        np.array(offsets),
+        coefficients=np.array(paths),
+        closed=np.array([body.closed for body in scene.bodies]),
+        names=[body.name for body in scene.bodies],
+        time=(scene.start, scene.end),
+    )
+
+
+def _constant(path: Polynomial) -> float:
+    """Return the value of a constant coordinate, a double."""
+    refuse_unless(path.degree <= 0)
+    return _linear(path)[0]
+
+
+def _linear(path: Polynomial) -> list[float]:
+    """Return the two coefficients, doubles, of a path of degree 1.
+
+    Raises:
+        LeftOutError: if they are not doubles, or the degree is higher.
+    """
+    refuse_unless(path.degree <= 1)
+    exact = [*path.coefficients, Fraction(0), Fraction(0)][:2]
+    doubles = [float(c) for c in exact]
+    refuse_unless([Fraction(c) for c in doubles] == exact)
+    return doubles
 
 
 def _some(count: int) -> str:

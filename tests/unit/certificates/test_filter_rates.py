@@ -5,10 +5,10 @@ the place, time and scale of the scene.
 """
 
 import pytest
-from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.simulation.simulation import Simulation
+from fuzz.general import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
 
 @pytest.fixture(autouse=True)

@@ -4,7 +4,6 @@ import math
 from random import Random
 
 import pytest
-from random_motions import lanes
 
 from exactpt import Body, Scene, Simulation, Translation
 from exactpt.certificates.at_time import PredicatesAt
@@ -23,6 +22,7 @@ from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.start import start_tiling
+from fuzz.general import lanes
 
 COUNTS = [2, pytest.param(60, marks=pytest.mark.slow)]
 

@@ -5,7 +5,6 @@ from random import Random
 
 import pytest
 from flipped import flipped_at_random, scattered
-from random_motions import lanes
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
@@ -25,6 +24,7 @@ from exactpt.testing.scenes import generate
 from exactpt.tiling.greedy import shadows
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules
+from fuzz.general import lanes
 
 FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "polygons_in_step")
 
