@@ -70,7 +70,7 @@ def lattice(random: Random) -> Scene:
 
 def _lattice_motion(random: Random) -> Translation:
     """Return a motion along an axis, or none."""
-    speed = random.choice([0, 0, 0, 1, -1, Fraction(1, 2)])
+    speed = Fraction(random.choice([0, 0, 0, 2, -2, 1]), 2)
     return random.choice([Translation([0, speed]), Translation([0], [0, speed])])
 
 
@@ -83,12 +83,10 @@ def round_bodies(random: Random) -> Scene:
     ]
     bodies = []
     for i, shape in enumerate(shapes):
-        around: Motion = random.choice([
-            Translation(),
-            Rigid([0, Fraction(1, 8)], pivot=(5, 5)),
-            Translation([0, random.randint(-2, 2)], [0, random.randint(-2, 2)]),
-        ])  # fmt: skip
-        bodies.append(Body(f"b{i}", shape[:: random.choice([1, -1])], around))
+        drift = Translation([0, random.randint(-2, 2)], [0, random.randint(-2, 2)])
+        turn = Rigid([0, Fraction(1, 8)], pivot=(5, 5))
+        motions: list[Motion] = [Translation(), turn, drift]
+        bodies.append(Body(f"b{i}", shape[:: random.choice([1, -1])], random.choice(motions)))
     return Scene(bodies, (0, 1))
 
 

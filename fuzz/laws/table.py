@@ -22,6 +22,7 @@ from fuzz.laws.drawn import (
     drawings_have_their_parts,
     filters_say_what_is_true,
     hostile_files_are_refused,
+    predicates_are_as_defined,
     queries_in_space_are_as_defined,
     stated_errors_are_kept,
     touching_rings_are_valid_or_not,
@@ -252,6 +253,7 @@ LAWS: Final[dict[str, Law]] = {
     "exchange/drawings": Law(drawings_have_their_parts, ("own",), share=0.5),
     "scene/touching rings": Law(touching_rings_are_valid_or_not, ("own",), share=0.5),
     "filters/adversary": Law(filters_say_what_is_true, ("own",)),
+    "filters/predicates": Law(predicates_are_as_defined, ("own",)),
     "space queries/reference": Law(queries_in_space_are_as_defined, ("own",), share=0.5),
     "tiling/cgal": Law(
         cgal_accepts_runs, ("family", "scope", "tiny/fractions"), most=40, needs="cgal"

@@ -20,7 +20,7 @@ from exactpt.testing.reference.space import convex_hull
 from exactpt.testing.reference.tangents import tangents
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time, contact_value
-from fuzz.witnesses import Difference, tilings_of
+from fuzz.witnesses import Difference, LeftOutError, tilings_of
 
 __all__ = [
     "a_tiling",
@@ -127,11 +127,16 @@ def tiling_is_as_defined(scene: Scene, random: Random) -> str:
         pass
     refuse_unless(run.contact is None)
     tiling = run.snapshot()
-    places = [(node.x, node.y) for node in tiling.nodes]
+    places = _places(tiling)
     found = {(edge.u, edge.v) for edge in tiling.diagonals}
     expected = tangents(places) if are_points else _greedy_edges(scene.bodies, places)
     check_equal(f"{name} tiling", sorted(found), sorted(expected))
     return f"{name}, {_some(len(expected))} edges"
+
+
+def _places(tiling: Snapshot) -> list[Place]:
+    """Return the positions of the vertices at a rational time."""
+    return [(fraction(node.exact_x), fraction(node.exact_y)) for node in tiling.nodes]
 
 
 def _greedy_edges(bodies: Sequence[Body], places: list[Place]) -> set[tuple[int, int]]:
@@ -205,7 +210,7 @@ def _check_corners(run: Simulation) -> None:
 def _check_area(run: Simulation, scene: Scene) -> None:
     """Check that faces are left turns at their corners alone, and that nothing is left out."""
     tiling = run.snapshot()
-    places: list[Place] = [(node.x, node.y) for node in tiling.nodes]
+    places = _places(tiling)
     area = Fraction(0)
     for face in tiling.faces:
         around = [face.nodes[-1], *face.nodes, face.nodes[0]]
@@ -225,11 +230,9 @@ def _doubled_area_of(body: Body, time: AlgebraicNumber) -> Fraction:
     points = body.at(fraction(time.simplified().exact_low))
     if not body.has_rings:
         return abs(_doubled_area(points))
-    return sum(
-        (-1 if k else 1) * abs(_doubled_area([points[v] for v in ring]))
-        for part in body.parts
-        for k, ring in enumerate(part)
-    )
+    rings = [(ring, k > 0) for part in body.parts for k, ring in enumerate(part)]
+    areas = [(abs(_doubled_area([points[v] for v in ring])), is_hole) for ring, is_hole in rings]
+    return sum((-area if is_hole else area for area, is_hole in areas), Fraction(0))
 
 
 def _doubled_area(points: Sequence[Place]) -> Fraction:
@@ -357,10 +360,12 @@ def _in_arrays(scene: Scene) -> Scene:
     corners: list[list[float]] = []
     offsets, paths = [0], []
     for body in scene.bodies:
-        refuse_unless(isinstance(body.motion, Translation) and not body.has_rings)
+        motion = body.motion
+        if not isinstance(motion, Translation) or body.has_rings:
+            raise LeftOutError
         corners += [[_constant(x), _constant(y)] for x, y in body.vertices]
         offsets.append(len(corners))
-        paths.append([_linear(body.motion.x), _linear(body.motion.y)])
+        paths.append([_linear(motion.x), _linear(motion.y)])
     return Scene.from_arrays(
         np.array(corners),
         np.array(offsets),
