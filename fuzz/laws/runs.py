@@ -87,7 +87,12 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
         contacts += 1
         expected = reference.first_contact(planned)
         check_equal("contact", plain_contact(contact), expected)
-        bounce(simulation, contact)
+        try:
+            bounce(simulation, contact)
+        except InputError as error:
+            if "beyond the range of doubles" not in str(error):
+                raise
+            raise LeftOutError from None
         planned = _from_now_on(simulation)
 
     for _ in run.run(on_contact=respond):

@@ -17,10 +17,11 @@ from exactpt import Body, Scene, Translation
 from exactpt.testing import FAMILIES as PAIRS
 from exactpt.testing import make_question
 from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
-from fuzz import corpus, many
+from fuzz import many
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.registry import CHANGES, changed
 from fuzz.general import NUMBERS, general_scene, lanes
+from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
@@ -75,8 +76,8 @@ def _of_scope(random: Random) -> Scene:
     return planned(random.randrange(SEEDS)).scene
 
 
-def _of_corpus(random: Random) -> Scene:
-    return Scene.load(random.choice(corpus.files()))
+def _kept(name: str) -> Source:
+    return lambda _: kept.kept(name).scene
 
 
 def _whole(name: str) -> Source:
@@ -108,7 +109,7 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/rings": touching_pair,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
-    "corpus": _of_corpus,
+    **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},
     "crowd": _crowd,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     **{f"many/{make.__name__}": make for make in many.KINDS},
@@ -121,7 +122,7 @@ SOURCES: Final[dict[str, Source]] = {
     "own": _nothing,
 }
 """Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
-of the small scope, and scenes of faults of the past; whole scenes of many bodies; bodies in general
+of the small scope, and those of tests/cases; whole scenes of many bodies; bodies in general
 position, near or far in space and time; contacts at the last double before bodies turn back, and
 far from the origin; bodies that turn at a constant rate or along poses; no bodies, for laws that
 draw their own cases. A new family is a new row here, and all laws take it."""

@@ -84,19 +84,19 @@ GENERAL: Final = tuple(
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
         as_defined("first contact", several=4),
-        (*TINY, *CLOSE, "tiny/rounded", "corpus"),
+        (*TINY, *CLOSE, "tiny/rounded", "case"),
         share=4,
         most=30,
     ),
     "first contact/methods": Law(
         two_ways_agree("first contact"),
-        (*FAMILY, *CLOSE, "corpus", "radii", "rings", "tiny/rings", "far"),
+        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far"),
         share=3,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
     ),
-    "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "corpus"), share=6),
+    "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "case"), share=6),
     "tiling/filters": Law(
         filters_decide_exactly,
         (*TILED, "family+nudged", "tiny/fractions", "general", "many+nudged"),
@@ -111,9 +111,7 @@ LAWS: Final[dict[str, Law]] = {
     "tiling/events": Law(
         events_lead_to_the_next_tiling, ("whole", "points", "many", "convex+awkward"), share=0.5
     ),
-    "tiling/whole": Law(
-        tilings_at_events_are_whole, ("whole", "family", "tiny/fractions", "corpus")
-    ),
+    "tiling/whole": Law(tilings_at_events_are_whole, ("whole", "family", "tiny/fractions", "case")),
     "tiling/general position": Law(
         general_position_needs_no_rebuild, (*GENERAL, "general", "many/scattered"), share=0.5
     ),
@@ -166,7 +164,7 @@ LAWS: Final[dict[str, Law]] = {
         relative_hulls_are_taut, ("family", "tiny/crowded", "family+awkward"), share=0.5, most=40
     ),
     "simulation/restored": Law(restored_run_goes_on, ("family", "tiny/meeting", "pair"), most=40),
-    "simulation/living": Law(living_run_is_static, ("tiny/pair",)),
+    "simulation/living": Law(living_run_is_static, ("own",)),
     "batch/single": Law(
         batch_is_single_calls,
         (

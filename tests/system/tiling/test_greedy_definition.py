@@ -9,7 +9,6 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
-from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
 from exactpt.testing.audits import audit_at
 from exactpt.testing.reference.greedy import ConvexBodies as Oracle
@@ -17,7 +16,8 @@ from exactpt.testing.scenes import CONVEX, FAMILIES, generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.start import make, plan_tiling
-from fuzz.corpus import files
+from fuzz.laws.kept import kept, names
+from fuzz.witnesses import tilings_of
 
 SOME = ("convex", "mixed_shapes", "ballistic", "turning", "deforming")
 
@@ -184,8 +184,9 @@ def test_walls_and_shadows_keep_the_same_tiling_in_many_scenes(family):
     assert scenes or family not in CONVEX
 
 
-def test_walls_and_shadows_keep_the_same_tiling_in_the_corpus():
-    scenes = [scene for path in files() if are_convex(scene := Scene.load(path))]
+def test_walls_and_shadows_keep_the_same_tiling_in_kept_cases():
+    scenes = [kept(name).scene for name in names()]
+    scenes = [scene for scene in scenes if "greedy" in tilings_of(scene) and are_convex(scene)]
 
     assert len(scenes) > 5
     assert sum(map(compare, scenes)) >= len(scenes)

@@ -91,7 +91,7 @@ def test_corners_that_close_on_each_other_at_an_event(family, seed, tiling):
 
 @pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
 def test_a_chain_that_is_straight_at_an_event(tiling):
-    """Its vertex is reflex after it, with a diagonal that has to go (corpus cgal-cac0e99123)."""
+    """Its vertex is reflex after it, with a diagonal that has to go."""
     middle = {"x": [28], "y": [54, "-1/2"]}
     ends = [("57/2", "103/2"), middle, ("55/2", "111/2"), (25, 61), (33, 46)]
     scene = Scene([Body("a", ends, closed=False)], (0, 1))

@@ -17,7 +17,8 @@ from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.testing.scenes import FAMILIES, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling
-from fuzz import corpus
+from fuzz.laws.kept import kept, names
+from fuzz.witnesses import tilings_of
 
 GRAZING = Scene(
     [
@@ -98,9 +99,11 @@ def test_the_pending_time_of_an_angle_is_its_first_zero(family, tiling):
 
 @pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
-@pytest.mark.parametrize("path", corpus.files(), ids=lambda path: path.stem)
-def test_the_same_in_scenes_that_once_failed(path, tiling):
-    run_and_check(Scene.load(path), tiling)
+@pytest.mark.parametrize("name", names())
+def test_the_same_in_kept_cases(name, tiling):
+    scene = kept(name).scene
+    if tiling in tilings_of(scene):
+        run_and_check(scene, tiling)
 
 
 @pytest.mark.parametrize("tiling", ["lazy", "mixed"])

@@ -167,7 +167,7 @@ def test_a_run_without_any_repair_finds_the_same(monkeypatch, tiling, family):
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.usefixtures("every_event_is_repaired")
 def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
-    """It was left out once, and the tiling stayed as it was (corpus cgal-d5efe668f5)."""
+    """It was left out once, and the tiling stayed as it was."""
     comb = [(0, 3), (0, 1), (1, 1), (1, 3), (5, 4), (5, 1), (0, 0), (1, 0), (9, 0), (9, 5)]
     bodies = [Body("a", [(2, 3)]), Body("b", comb, Translation([0], [0, 1]))]
     monkeypatch.setattr(Repairs, "repair_all", refuse)
