@@ -46,7 +46,9 @@ from fuzz.laws.tilings import (
     events_lead_to_the_next_tiling,
     filters_decide_exactly,
     general_position_needs_no_rebuild,
+    greedy_in_two_ways,
     kinetic_is_static,
+    mixed_tiling_has_its_regions,
     most_decisions_are_of_filters,
     tiling_is_as_defined,
     tilings_at_events_are_whole,
@@ -107,6 +109,12 @@ LAWS: Final[dict[str, Law]] = {
         tiling_is_as_defined,
         ("points", "convex", "points+awkward", "convex+awkward", "whole/linear_points"),
         most=40,
+    ),
+    "tiling/two ways": Law(
+        greedy_in_two_ways, ("convex", "many", "convex+awkward", "tiny/fractions"), share=0.5
+    ),
+    "tiling/regions": Law(
+        mixed_tiling_has_its_regions, ("whole", "family", "rings", "many"), share=0.5
     ),
     "tiling/events": Law(
         events_lead_to_the_next_tiling, ("whole", "points", "many", "convex+awkward"), share=0.5

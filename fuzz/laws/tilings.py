@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
 from itertools import combinations, pairwise
+from math import ceil, log2
 from random import Random
 from typing import Final, TypeAlias
 
@@ -16,8 +18,9 @@ from exactpt.kernel.numbers import fraction
 from exactpt.pseudotriangulation.snapshot import Snapshot
 from exactpt.testing import audit
 from exactpt.testing.reference.greedy import ConvexBodies
-from exactpt.testing.reference.space import convex_hull
+from exactpt.testing.reference.space import components, convex_hull
 from exactpt.testing.reference.tangents import tangents
+from exactpt.tiling.catalogue import ENTRIES, Bodies, Entry
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time, contact_value
 from fuzz.witnesses import Difference, LeftOutError, tilings_of
@@ -29,7 +32,9 @@ __all__ = [
     "events_lead_to_the_next_tiling",
     "filters_decide_exactly",
     "general_position_needs_no_rebuild",
+    "greedy_in_two_ways",
     "kinetic_is_static",
+    "mixed_tiling_has_its_regions",
     "most_decisions_are_of_filters",
     "tiling_is_as_defined",
     "tilings_at_events_are_whole",
@@ -45,6 +50,9 @@ ODD: Final = 9973
 
 TIMES: Final = 8
 """Number of times at which the tilings of a run are compared."""
+
+SEGMENTS: Final = 20
+"""Number of segments of which crossings are counted."""
 
 EXACT: Final = 0.01
 """Maximum share of exact decisions in general position."""
@@ -131,7 +139,24 @@ def tiling_is_as_defined(scene: Scene, random: Random) -> str:
     found = {(edge.u, edge.v) for edge in tiling.diagonals}
     expected = tangents(places) if are_points else _greedy_edges(scene.bodies, places)
     check_equal(f"{name} tiling", sorted(found), sorted(expected))
+    if not are_points or _are_general(places):
+        edges, faces = _counts_of(scene.bodies, are_points=are_points)
+        check_equal(f"{name} tiling: number of edges", len(found), edges)
+        check_equal(f"{name} tiling: number of faces", len(tiling.faces), faces)
     return f"{name}, {_some(len(expected))} edges"
+
+
+def _counts_of(bodies: Sequence[Body], *, are_points: bool) -> tuple[int, int]:
+    """Return the numbers of edges and faces of a tiling in general position.
+
+    Of n points: 2 n - 3 and n - 2. Of k convex bodies, m of them not points: 3 k - 3 bitangents,
+    one less for each point, whose two have one geometry; and k + m - 2 (paper, Lemma 2.1).
+    """
+    count = len(bodies)
+    points = sum(body.size == 1 for body in bodies)
+    if are_points:
+        return 2 * count - 3, count - 2
+    return 3 * count - 3 - points, 2 * count - points - 2
 
 
 def _places(tiling: Snapshot) -> list[Place]:
@@ -147,8 +172,7 @@ def _greedy_edges(bodies: Sequence[Body], places: list[Place]) -> set[tuple[int,
             vertical one.
     """
     refuse_unless(all(body.closed and not body.has_rings for body in bodies))
-    refuse_unless(len({x for x, _ in places}) == len(places))
-    refuse_unless(all(_turn(*three) for three in combinations(places, 3)))
+    refuse_unless(_are_general(places))
     outlines: list[list[int]] = []
     for body in bodies:
         first = sum(map(len, outlines))
@@ -156,6 +180,13 @@ def _greedy_edges(bodies: Sequence[Body], places: list[Place]) -> set[tuple[int,
     defined = ConvexBodies([[places[v] for v in outline] for outline in outlines])
     ends = ((outlines[i][a], outlines[j][b]) for (i, a), (j, b) in defined.edges(defined.greedy()))
     return {(min(u, v), max(u, v)) for u, v in ends}
+
+
+def _are_general(places: Sequence[Place]) -> bool:
+    """Return True if no three points are on one line, and no two on a vertical one."""
+    if len({x for x, _ in places}) < len(places):
+        return False
+    return all(_turn(*three) for three in combinations(places, 3))
 
 
 def _counter_clockwise(outline: list[int], places: list[Place]) -> list[int]:
@@ -176,6 +207,120 @@ def _turn(a: Place, b: Place, c: Place) -> int:
     """Return 1 if three points turn left, -1 if right, 0 if they are on one line."""
     left, right = (b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0])
     return (left > right) - (left < right)
+
+
+# The greedy tiling of convex bodies in two ways, and the mixed one in regions
+
+
+SHADOWED: Final = Entry("shadowed", Bodies.ANY, "exactpt.tiling.greedy.shadowed:ShadowRules")
+"""The greedy tiling by the rules for any bodies, for bodies that stay convex too."""
+
+
+def greedy_in_two_ways(scene: Scene, random: Random) -> str:
+    """The rules for bodies that stay convex, and those for any, keep the same greedy tiling."""
+    refuse_unless("greedy" in tilings_of(scene))
+    with _registered(SHADOWED):
+        convex, any_bodies = (Simulation(scene, tiling=name) for name in ("greedy", SHADOWED.name))
+    refuse_unless(convex.stats.get("rules") == "VerticalRules")
+    compared = 0
+    for time in _odd_times(scene, random):
+        times = [event.time for run in (convex, any_bodies) for event in run.run(until=time)]
+        check_equal("contact", any_bodies.contact, convex.contact)
+        if convex.contact is not None:
+            break
+        if time not in times:
+            check_equal("diagonals", any_bodies.snapshot().diagonals, convex.snapshot().diagonals)
+            compared += 1
+    return f"{_some(compared)} tilings"
+
+
+@contextmanager
+def _registered(entry: Entry) -> Iterator[None]:
+    """Add a tiling to the catalogue (docs/extending.md)."""
+    ENTRIES.append(entry)
+    try:
+        yield
+    finally:
+        ENTRIES.remove(entry)
+
+
+def mixed_tiling_has_its_regions(scene: Scene, random: Random) -> str:
+    """Outside of relative hulls there are two faces a body but two, and little else of each kind.
+
+    Of k bodies, O(k) edges that join two are on the border of that region, and within it (paper,
+    Lemma 5.2, Corollary 5.3). A segment in the free space crosses few edges inside of relative
+    hulls (Lemma 5.4).
+    """
+    refuse_unless("mixed" in tilings_of(scene))
+    run = Simulation(scene, tiling="mixed")
+    time = _odd_times(scene, random)[0]
+    refuse_unless(time not in [event.time for event in run.run(until=time)])
+    refuse_unless(run.contact is None)
+    tiling = run.snapshot()
+    outlines = components(Scene(scene.bodies, (time, scene.end))).values()
+    expected = sum(max(0, 2 * len(names) - 2) for names in outlines)
+    outer = [face for face in tiling.faces if face.region == "F2"]
+    are_polygons = all(body.closed and body.size > 2 for body in scene.bodies)
+    if are_polygons or len(outer) > expected:  # faces of copies alone have no area
+        check_equal("number of faces in F2", len(outer), expected)
+    if not any(body.has_rings for body in scene.bodies):
+        _check_bridges(tiling, len(scene.bodies))
+    crossed = _check_crossings(tiling, scene, random)
+    return f"{_some(len(outer))} faces in F2, {_some(crossed)} edges crossed"
+
+
+def _check_bridges(tiling: Snapshot, count: int) -> None:
+    """Check the numbers of edges that join two bodies on the border of F2, and within it."""
+    regions = _regions_beside(tiling)
+    bridges = [
+        regions.get((edge.u, edge.v), set())
+        for edge in tiling.diagonals
+        if tiling.nodes[edge.u].body != tiling.nodes[edge.v].body
+    ]
+    for beside, most in (({"F1", "F2"}, 6 * count), ({"F2"}, 3 * count)):
+        found = bridges.count(beside)
+        if found > most:
+            raise Difference("bridges", f"{found} beside {sorted(beside)}, at most {most}")
+
+
+def _regions_beside(tiling: Snapshot) -> dict[tuple[int, int], set[str]]:
+    """Return the regions on both sides of each edge of a face."""
+    regions: dict[tuple[int, int], set[str]] = {}
+    for face in tiling.faces:
+        for u, v in pairwise([*face.nodes, face.nodes[0]]):
+            regions.setdefault((min(u, v), max(u, v)), set()).add(face.region)
+    return regions
+
+
+def _check_crossings(tiling: Snapshot, scene: Scene, random: Random) -> int:
+    """Check how many edges of F1 free segments cross; return the largest number found."""
+    places, regions = _places(tiling), _regions_beside(tiling)
+    inner = [edge for edge in tiling.diagonals if "F1" in regions.get((edge.u, edge.v), ())]
+    solid = [edge for edge in tiling.edges if edge.kind == "boundary"]
+    largest = max(body.size for body in scene.bodies)
+    most = 2 * (ceil(log2(largest)) + 2)
+    found = 0
+    for _ in range(SEGMENTS):
+        segment = _near(random, places), _near(random, places)
+        if any(_cross(segment, (places[e.u], places[e.v])) for e in solid):
+            continue
+        crossed = sum(_cross(segment, (places[e.u], places[e.v])) for e in inner)
+        if crossed > most:
+            raise Difference("edges of F1", f"{segment} crosses {crossed}, at most {most}")
+        found = max(found, crossed)
+    return found
+
+
+def _near(random: Random, places: Sequence[Place]) -> Place:
+    """Return a point near a vertex, on its free side or not."""
+    x, y = random.choice(places)
+    return x + Fraction(random.randint(-300, 300), 97), y + Fraction(random.randint(-300, 300), 101)
+
+
+def _cross(s: tuple[Place, Place], t: tuple[Place, Place]) -> bool:
+    """Return True if two segments cross at inner points."""
+    (a, b), (c, d) = s, t
+    return _turn(a, b, c) * _turn(a, b, d) < 0 and _turn(c, d, a) * _turn(c, d, b) < 0
 
 
 # Tilings as users see them
