@@ -18,7 +18,7 @@ from typing import Final, TypeAlias
 from exactpt import Body, Pieces, Rigid, Scene, Translation
 from exactpt.motion.motions import Motion
 
-__all__ = ["KINDS"]
+__all__ = ["KINDS", "long_arc"]
 
 Outline: TypeAlias = list[tuple[Fraction, Fraction]]
 
@@ -91,8 +91,17 @@ def round_bodies(random: Random) -> Scene:
 
 
 def arc_of_points(random: Random) -> Scene:
-    """Two points change places time and again beside an arc: a long chain, walked or searched."""
-    size, swaps = random.choice([10, 40]), 8
+    """Two points change places time and again beside an arc, whose chain is walked along."""
+    return _beside_arc(random.choice([10, 40]), 8)
+
+
+def long_arc(random: Random) -> Scene:
+    """An arc so long, and so many changes of places, that its chain comes to be searched."""
+    return _beside_arc(random.choice([160, 200]), 160)
+
+
+def _beside_arc(size: int, swaps: int) -> Scene:
+    """Return an arc of points, and two points beside it that change places at each half."""
     arc = [Body(f"a{y}", [(-y * y, 2 * y)]) for y in range(-size + 1, size, 2)]
     middle = size * size
     pair = []
@@ -108,8 +117,12 @@ def arc_of_points(random: Random) -> Scene:
 
 
 def doubles(random: Random) -> Scene:
-    """Triangles of doubles of either orientation, with an upright side, some of them at rest."""
-    unit = 2.0 ** random.choice([0, 0, -40, 40, 90])
+    """Triangles of doubles of either orientation, with an upright side, some of them at rest.
+
+    Sometimes one is in free fall, so that not all of them are in linear motion.
+    """
+    unit = 2.0 ** random.choice([0, 0, -40, 40, 90, 1000])
+    fall = random.choice([[], [], [-0.25]])
     bodies = []
     for i in range(25):
         x, y = 40.0 * (i % 5) + random.uniform(-9, 9), 40.0 * (i // 5) + random.uniform(-9, 9)
@@ -117,7 +130,7 @@ def doubles(random: Random) -> Scene:
         if random.random() < 0.5:
             corners.reverse()
         speed = [0.0, random.choice([0.0, 0.25, 3 + 2.0**-30, random.uniform(-9, 9)])]
-        rise = [0.0, random.choice([0.0, -0.5, random.uniform(-9, 9)])]
+        rise = [0.0, random.choice([0.0, -0.5, random.uniform(-9, 9)]), *(fall if i == 0 else [])]
         motion = Translation([c * unit for c in speed], [c * unit for c in rise])
         bodies.append(Body(f"b{i}", [(a * unit, b * unit) for a, b in corners], motion))
     start = random.choice([Fraction(0), Fraction(1, 3)])
@@ -132,7 +145,7 @@ KINDS: Final[tuple[Callable[[Random], Scene], ...]] = (
     arc_of_points,
     doubles,
 )
-"""The kinds of scenes."""
+"""The kinds of scenes, apart from `long_arc`, which is for the tiling of points alone."""
 
 
 # Places, outlines, motions

@@ -113,6 +113,7 @@ SOURCES: Final[dict[str, Source]] = {
     "crowd": _crowd,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     **{f"many/{make.__name__}": make for make in many.KINDS},
+    "long/arc": many.long_arc,
     "general/any": general_scene,
     "general/lanes": _lanes,
     "far/relay": relay,

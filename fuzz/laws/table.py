@@ -117,16 +117,14 @@ LAWS: Final[dict[str, Law]] = {
         mixed_tiling_has_its_regions, ("whole", "family", "rings", "many"), share=0.5
     ),
     "tiling/events": Law(
-        events_lead_to_the_next_tiling, ("whole", "points", "many", "convex+awkward"), share=0.5
+        events_lead_to_the_next_tiling,
+        ("whole", "points", "many", "convex+awkward", "long"),
+        share=0.5,
     ),
     "tiling/whole": Law(tilings_at_events_are_whole, ("whole", "family", "tiny/fractions", "case")),
-    "tiling/general position": Law(
-        general_position_needs_no_rebuild, (*GENERAL, "general", "many/scattered"), share=0.5
-    ),
     "tiling/arrays": Law(
         arrays_are_tiled_as_bodies, ("many/doubles", "many/doubles+rounded"), share=0.5
     ),
-    "cost/filters": Law(most_decisions_are_of_filters, ("general",), share=0.5),
     "contacts/reference": Law(
         as_defined("contacts"),
         ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),
@@ -285,6 +283,13 @@ LAWS: Final[dict[str, Law]] = {
             ("later end", later_end),
         )
     },
+    "cost/rebuilds": Law(
+        general_position_needs_no_rebuild,
+        (*GENERAL, "general", "many/scattered"),
+        share=0.5,
+        cases=96,
+    ),
+    "cost/filters": Law(most_decisions_are_of_filters, ("general",), share=0.5, cases=48),
     "cost/later end, lazy": Law(
         bystander_costs_nothing(later_end, "--tiling", "lazy"),
         ("whole/convex", "whole/stars", "whole/turning"),
