@@ -6,8 +6,7 @@ source. Its keys are
 * ``note``: what is special about the scene, or what was wrong, in a line or two,
 * ``scene``: the scene, as `exactpt.Scene.from_json` reads it,
 * ``law`` and ``case``, if a law was broken: its name, and the ``SOURCE:SEED:NUMBER`` at which it
-  was, from which its random choices follow,
-* ``skip``, if a law does not suit the scene and cannot say so itself: reasons, by law.
+  was, from which its random choices follow.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -38,7 +37,7 @@ PREFIX: Final = "case/"
 """What the source of a kept case begins with."""
 
 REQUIRED: Final = {"note", "scene"}
-OPTIONAL: Final = {"law", "case", "skip"}
+OPTIONAL: Final = {"law", "case"}
 
 Json: TypeAlias = Mapping[str, object]
 
@@ -52,14 +51,12 @@ class Kept:
         scene: the scene.
         law: the law that was broken; "" if none was.
         place: the source, the seed and the number of the case that broke it.
-        skip: laws that are not checked, each with the reason.
     """
 
     note: str
     scene: Scene
     law: str = ""
     place: str = ""
-    skip: Mapping[str, str] = field(default_factory=dict)
 
 
 def names() -> list[str]:
@@ -87,8 +84,7 @@ def kept(name: str) -> Kept:
         scene = Scene.from_json(data["scene"])
     except InputError as error:
         raise InputError(f"{path.name}: {error}") from None
-    law, place, skip = data.get("law", ""), data.get("case", ""), data.get("skip", {})
-    return Kept(data["note"], scene, law, place, skip)
+    return Kept(data["note"], scene, data.get("law", ""), data.get("case", ""))
 
 
 def kept_of_source(source: str) -> Kept | None:

@@ -38,6 +38,9 @@ USUAL: Final = 20.0
 OWN: Final = "own"
 """The source of laws that draw their own cases."""
 
+COST: Final = "cost/"
+"""What the names of laws about costs begin with."""
+
 NOT_ASKED: Final = "not asked"
 NO_SCENE: Final = "no such scene"
 TOO_LARGE: Final = "too large"
@@ -239,12 +242,12 @@ def runnable(laws: Iterable[str]) -> list[str]:
 def laws_of_cases(needs: str = "") -> list[str]:
     """Return the laws about a kept case: those of any scene that need this other program.
 
-    Laws that draw their own cases or have the same few in each run are about others.
+    Laws that draw their own cases, and those about costs, are about other scenes.
     """
     return [
         name
         for name, law in LAWS.items()
-        if law.needs == needs and law.cases is None and law.sources != (OWN,)
+        if law.needs == needs and law.sources != (OWN,) and not name.startswith(COST)
     ]
 
 

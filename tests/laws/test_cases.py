@@ -12,6 +12,7 @@ from fuzz.laws.kept import PREFIX, kept, names
 from fuzz.laws.known import reason_of
 from fuzz.laws.law import PROGRAMS
 from fuzz.laws.runner import Case, laws_of_cases, look, shrunk
+from fuzz.laws.table import LAWS
 
 SHRINKING = 5.0  # seconds
 DRAWS = {"quick": 1, "full": 2}  # random choices of a law in a scene
@@ -19,18 +20,17 @@ QUICK = 4  # laws of a case in the tier "quick"
 
 
 def laws_of(name, case, needs, tier):
-    """Return the laws under which a case is checked."""
-    laws = [law for law in laws_of_cases(needs) if law not in case.skip]
-    if tier == "full":
-        return laws
-    broken = [law for law in laws if law == case.law]
-    others = [law for law in laws if law != case.law]
-    others.sort(key=lambda law: crc32(f"{name} {law}".encode()))
-    return broken + others[:QUICK]
+    """Return the laws under which a case is checked: first the one that it broke, if any."""
+    broken = [case.law] if case.law and LAWS[case.law].needs == needs else []
+    others = [law for law in laws_of_cases(needs) if law != case.law]
+    if tier == "quick":
+        others = sorted(others, key=lambda law: crc32(f"{name} {law}".encode()))[:QUICK]
+    return broken + others
 
 
 def check(name, tier, needs=""):
     case = kept(name)
+    assert case.law in {"", *LAWS}, f"{name}.json: no such law"
     for law in laws_of(name, case, needs, tier):
         for number in range(DRAWS[tier]):
             one = Case(law, f"{PREFIX}{name}", 0, number)
