@@ -17,8 +17,10 @@ from exactpt import Body, Scene, Translation
 from exactpt.testing import FAMILIES as PAIRS
 from exactpt.testing import make_question
 from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
+from fuzz import many
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.registry import CHANGES, changed
+from fuzz.general import NUMBERS, general_scene, lanes
 from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.budgets import relay
@@ -93,6 +95,10 @@ def _crowd(random: Random) -> Scene:
     return generate(random.choice(CROWDS), random.randrange(SEEDS))
 
 
+def _lanes(random: Random) -> Scene:
+    return lanes(random.choice(NUMBERS), random.randrange(SEEDS), bodies=random.choice([16, 64]))
+
+
 SOURCES: Final[dict[str, Source]] = {
     **{f"family/{name}": _of_family(name) for name in EVERY if name not in SPINNING},
     **{f"pair/{name}": _of_pair(name) for name in PAIRS},
@@ -115,6 +121,10 @@ SOURCES: Final[dict[str, Source]] = {
     "planks": planks,
     "wheels": wheels,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
+    **{f"many/{make.__name__}": make for make in many.KINDS},
+    "long/arc": many.long_arc,
+    "general/any": general_scene,
+    "general/lanes": _lanes,
     "far/relay": relay,
     "far/convoy": convoy,
     "spinning": spinning_scene,
@@ -122,17 +132,18 @@ SOURCES: Final[dict[str, Source]] = {
     "own": _nothing,
 }
 """Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
-of the small scope, and those of tests/cases; whole scenes of many bodies; contacts at the
-last double before bodies turn back, and far from the origin; bodies that turn at a constant rate or
-along poses; bodies of many pieces of motion, long thin ones, and those of many vertices; no bodies,
-for laws that draw their own cases. A new family is a new row here, and all
-laws take it."""
+of the small scope, and those of tests/cases; whole scenes of many bodies; bodies in general
+position, near or far in space and time; contacts at the last double before bodies turn back, and
+far from the origin; bodies that turn at a constant rate or along poses; bodies of many pieces of
+motion, long thin ones, and those of many vertices; no bodies, for laws that draw their own cases. A
+new family is a new row here, and all laws take it."""
 
 KINDS: Final[dict[str, tuple[str, ...]]] = {
     "turning": ("turning", "turning_stars", "turning_points", "rolling_discs"),
     "deforming": ("deforming", "keyframed"),
     "curved": ("ballistic", "ballistic_points", "parabola_points"),
     "pieces": ("pieces", "piecewise_points", "rounded_motions"),
+    "convex": tuple(CATALOGUE["convex"]),
     "points": tuple(CATALOGUE["points"]),
     "radii": tuple(CATALOGUE["rounded"]),
     "rings": (*CATALOGUE["rings"], *CATALOGUE["touching"]),

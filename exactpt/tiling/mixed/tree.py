@@ -57,9 +57,6 @@ class GeodesicTree:
                     self.child.append(-1)
             node += 1
 
-    def __len__(self) -> int:
-        return len(self.low)
-
 
 @lru_cache(maxsize=256)
 def tree_of_size(size: int) -> GeodesicTree:
