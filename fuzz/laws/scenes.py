@@ -21,10 +21,15 @@ from fuzz import corpus
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.registry import CHANGES, changed
 from fuzz.questions.batched import touching_while_turning
-from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
 from fuzz.questions.rounded import rounded_pair
-from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.scenes import (
+    chevrons,
+    crowded_scene,
+    distant_scene,
+    meeting_scene,
+    relay,
+)
 from fuzz.questions.spinning import path_scene, spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.questions.touching_rings import touching_pair
@@ -70,6 +75,17 @@ def fractions_scene(random: Random) -> Scene:
     return Scene(bodies, time=(0, 3))
 
 
+def crossing_points(random: Random) -> Scene:
+    """Return points that move on a small grid, where many are in line and level at one time."""
+    cells = random.sample(range(64), random.randint(3, 12))
+    bodies = []
+    for cell in cells:
+        x, y = divmod(cell, 8)
+        motion = Translation([0, random.randint(-1, 1)], [0, random.randint(-1, 1)])
+        bodies.append(Body(f"p{cell}", [(x, y)], motion))
+    return Scene(bodies, time=(0, 8))
+
+
 def _of_scope(random: Random) -> Scene:
     return planned(random.randrange(SEEDS)).scene
 
@@ -101,12 +117,14 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/rounded": rounded_pair,
     "tiny/fractions": fractions_scene,
     "tiny/rings": touching_pair,
+    "tiny/crossing points": crossing_points,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     "corpus": _of_corpus,
     "crowd": _crowd,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     "far/relay": relay,
+    "chevrons": chevrons,
     "far/convoy": convoy,
     "spinning": spinning_scene,
     "poses": path_scene,

@@ -37,7 +37,6 @@ from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal
 from fuzz.questions.batched import wrong_in_batch
 from fuzz.questions.below import wrong_intervals
-from fuzz.questions.budgets import wrong_at_the_end
 from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
