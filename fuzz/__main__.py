@@ -20,11 +20,11 @@ from fuzz.changes.thin import SUFFIX
 from fuzz.drawings import drawings
 from fuzz.hostile.run import hostile_files
 from fuzz.laws.command import again, keep, record_costs, run
-from fuzz.laws.power import power
 from fuzz.members import members
 from fuzz.old_engine.build import is_built
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
+from fuzz.power.command import power
 from fuzz.proofs.command import certificates, proof_both, proof_mutants, scene_readers
 from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions

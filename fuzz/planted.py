@@ -8,11 +8,9 @@ awkward ones, in the small scope, or by a question.
 
 from __future__ import annotations
 
-import contextlib
-import inspect
-import textwrap
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from itertools import count
 from random import Random
@@ -46,6 +44,7 @@ from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
 from fuzz.cases import QUESTION, Failure, failure_of
 from fuzz.changes.awkward import SUFFIX, awkward
+from fuzz.power.edits import Edit, Function, Replacement
 from fuzz.questions.command import KEPT, ask
 from fuzz.small_scope.look import look
 from fuzz.small_scope.scope import planned
@@ -93,34 +92,6 @@ COPIES_ARE_MASKED: Final = (
     "a triangle, of which another function takes care. Where p is in the place of v, at a contact, "
     "the order is 0 in both ways."
 )
-
-Function = Callable[..., Any]
-
-
-def _replaced(owner: object, name: str, make: Callable[[Function], Function]) -> Any:
-    """A context in which a function is replaced by a wrong one made from it."""
-    return patch.object(owner, name, make(getattr(owner, name)))
-
-
-@contextlib.contextmanager
-def _edited(owner: Any, name: str, old: str, new: str) -> Iterator[None]:
-    """A context in which a function has another text, of which ``old`` is replaced by ``new``.
-
-    The code of the function is exchanged, not the function: whoever has imported it by name makes
-    the mistake too.
-    """
-    right = inspect.unwrap(getattr(owner, name))
-    text = textwrap.dedent(inspect.getsource(right))
-    if text.count(old) != 1:
-        raise InputError(f"planted: {name} has {text.count(old)} times the text {old!r}")
-    made: dict[str, Any] = {}
-    exec(text.replace(old, new), right.__globals__, made)
-    code = right.__code__
-    right.__code__ = inspect.unwrap(made[name]).__code__
-    try:
-        yield
-    finally:
-        right.__code__ = code
 
 
 def _sign_at_a_root(right: Function) -> Function:
@@ -170,7 +141,7 @@ def _even_zeros_of_copies(right: Function) -> Function:
     def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
         if len({id(v.track) for v in (a, b, c)}) == 3:
             return right(self, a, b, c)
-        with _replaced(certifier, "roots_after", _even_roots):
+        with Replacement(certifier, "roots_after", _even_roots).made():
             return right(self, a, b, c)
 
     return wrong
@@ -273,115 +244,113 @@ class Mistake:
 
     Attributes:
         kind: the kind of the mistake, a sentence.
-        made: returns a context in which it is made.
+        change: the change of one function by which it is made.
         hunted: where it is hunted.
         masked: why no answer can show it, if none can.
     """
 
     kind: str
-    made: Callable[[], Any]
+    change: Edit | Replacement
     hunted: str = FAMILIES_AS_THEY_ARE
     masked: str = ""
+
+    def made(self) -> AbstractContextManager[object]:
+        """Return a context in which it is made."""
+        return self.change.made()
 
 
 PLANTED: Final[dict[str, Mistake]] = {
     "sign before for sign after": Mistake(
         "A sign is taken on the wrong side of a time at which it changes.",
-        lambda: _replaced(Certifier, "_exact_orientation", _sign_at_a_root),
+        Replacement(Certifier, "_exact_orientation", _sign_at_a_root),
     ),
     "sign of a certificate flipped": Mistake(
         "One of several forms of a certificate has the other orientation.",
-        lambda: _replaced(coefficients, "_three", _flipped),
+        Replacement(coefficients, "_three", _flipped),
     ),
     "events dropped": Mistake(
         "An event is lost, now and then.",
-        lambda: _replaced(EventQueue, "schedule_crossing", _events_dropped),
+        Replacement(EventQueue, "schedule_crossing", _events_dropped),
     ),
     "equal times not equal": Mistake(
         "Times that no double tells apart count as different.",
-        lambda: _replaced(EventQueue, "_compare", _order_of_ties),
+        Replacement(EventQueue, "_compare", _order_of_ties),
     ),
     "even roots ignored": Mistake(
         "Where a sign does not change, nothing is thought to happen.",
-        lambda: _replaced(certifier, "roots_after", _even_roots),
+        Replacement(certifier, "roots_after", _even_roots),
     ),
     "even zeros of copies ignored": Mistake(
         "The same, in a case that hardly shows in families.",
-        lambda: _replaced(Certifier, "_exact_orientation", _even_zeros_of_copies),
+        Replacement(Certifier, "_exact_orientation", _even_zeros_of_copies),
         THE_SMALL_SCOPE,
     ),
     "contact proof skipped": Mistake(
-        "A necessary test is left out.", lambda: _replaced(engine, "may_touch", _always(False))
+        "A necessary test is left out.", Replacement(engine, "may_touch", _always(False))
     ),
     "straight chains not followed": Mistake(
         "A degenerate place counts as a general one.",
-        lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
+        Replacement(CertifiedMesh, "_is_flat", _always(False)),
     ),
     "vertex on vertex ignored": Mistake(
         "One of two kinds of incidences is forgotten.",
-        lambda: _replaced(incidences, "coincide", _no_meetings),
+        Replacement(incidences, "coincide", _no_meetings),
     ),
     "the wrong diagonal gives way": Mistake(
         "Of two things that are alike the wrong one is taken.",
-        lambda: _replaced(Repairs, "_repair_reflex_angle", _wrong_diagonal),
+        Replacement(Repairs, "_repair_reflex_angle", _wrong_diagonal),
     ),
     "pieces not certified anew": Mistake(
         "Something that has changed is not looked at again.",
-        lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
+        Replacement(CertifiedMesh, "certify_body", _always([])),
     ),
     "rigid by mistake": Mistake(
         "What holds for two is taken to hold for three.",
-        lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
+        Replacement(Certifier, "rigid", _rigid_if_one_velocity),
     ),
     "order of ties swapped": Mistake(
         "A tie is broken in the other way.",
-        lambda: _replaced(perturbation, "x_order_terms", _swapped),
+        Replacement(perturbation, "x_order_terms", _swapped),
     ),
     "containment at the start missed": Mistake(
         "Boundaries are compared, and what is inside them is not.",
-        lambda: _replaced(driver, "initial_touches", _first_body_only),
+        Replacement(driver, "initial_touches", _first_body_only),
     ),
     "x-order kept for ever": Mistake(
         "What holds now is taken to hold for ever.",
-        lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
+        Replacement(Certifier, "keeps_x_order", _always(True)),
     ),
     "root enclosures too narrow": Mistake(
         "An enclosure is narrower than what is proved.",
-        lambda: _replaced(filters, "linear", _narrow),
+        Replacement(filters, "linear", _narrow),
     ),
     "filter bound too small": Mistake(
         "Rounded numbers are taken for exact ones.",
-        lambda: _replaced(Certifier, "__init__", _unguarded),
+        Replacement(Certifier, "__init__", _unguarded),
     ),
     "ties lost in the queue": Mistake(
         "A bound is taken to be excluded that is included.",
-        lambda: _edited(EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"),
+        Edit(EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"),
     ),
     "the wrong end of a corner gives way": Mistake(
         "One of two directions is confused with the other.",
-        lambda: _edited(Repairs, "_repair_corner", "if side > 0", "if side < 0"),
+        Edit(Repairs, "_repair_corner", "if side > 0", "if side < 0"),
     ),
     "the angle across not certified": Mistake(
         "One of several places that change is forgotten.",
-        lambda: _edited(
-            Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
-        ),
+        Edit(Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"),
     ),
     "the wrong end of an isolated edge slides": Mistake(
         "One of two directions is confused with the other, on a fast way.",
-        lambda: _edited(
-            IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"
-        ),
+        Edit(IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"),
     ),
     "a contact taken for an isolated event": Mistake(
         "A fast way is taken where it does not apply.",
-        lambda: _edited(
-            IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"
-        ),
+        Edit(IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"),
     ),
     "an isolated angle across not certified": Mistake(
         "One of several places that change is forgotten, on a fast way.",
-        lambda: _edited(
+        Edit(
             IsolatedEvents,
             "_recertify",
             "twin(h), before, following[before]",
@@ -390,56 +359,50 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "ends of pieces missed": Mistake(
         "A kind of event is forgotten.",
-        lambda: _replaced(Clock, "end_of_piece", _always(None)),
+        Replacement(Clock, "end_of_piece", _always(None)),
     ),
     "swept boxes too small": Mistake(
         "A box does not contain what it stands for.",
-        lambda: _edited(SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("),
+        Edit(SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("),
     ),
     "the last root taken for the first": Mistake(
         "Of several solutions the wrong one is taken.",
-        lambda: _edited(
-            roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
-        ),
+        Edit(roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"),
     ),
     "the end of the span left out": Mistake(
         "A closed interval is taken for an open one.",
-        lambda: _edited(
-            Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"
-        ),
+        Edit(Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"),
     ),
     "vertical bitangents ignored": Mistake(
         "A rule of one tiling is not applied.",
-        lambda: _replaced(
+        Replacement(
             VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
         ),
     ),
     "single times left out": Mistake(
         "A closed interval that is a single time is taken for none.",
-        lambda: _edited(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
+        Edit(clearance, "_parts_within", "sign_of(f) <= 0", "sign_of(f) < 0"),
         "questions/below",
     ),
     "a term of an error forgotten": Mistake(
         "One of the terms of a bound is left out, which only large edges show.",
-        lambda: _edited(near_features, "_may_be_least", "far * off_edge + ", ""),
+        Edit(near_features, "_may_be_least", "far * off_edge + ", ""),
         "questions/moving",
     ),
     "times before 0 forgotten": Mistake(
         "The largest size of a time is taken to be that of the end of its span.",
-        lambda: _edited(
-            PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"
-        ),
+        Edit(PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"),
         "questions/convoy",
     ),
     "a radius rounded down": Mistake(
         "A bound is rounded to the wrong side.",
-        lambda: _edited(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
+        Edit(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
         "questions/convoy",
         RADIUS_IS_MASKED,
     ),
     "vertices of swapped bodies not swapped": Mistake(
         "Of two bodies that are put in order, only the names change places.",
-        lambda: _edited(
+        Edit(
             track,
             "vertex_touch",
             "Incidence(other, other_vertex, body, -1, vertex)",
@@ -448,16 +411,16 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "places at the start off by less": Mistake(
         "The constant of a bound is too small, which far bodies show alone.",
-        lambda: _edited(turning, "_at_start", "64.0 * U", "0.5 * U"),
+        Edit(turning, "_at_start", "64.0 * U", "0.5 * U"),
         "questions/batch",
     ),
     "an isolated angle across not certified, mirrored": Mistake(
         "Of two mirrored branches, one forgets a place that changes.",
-        lambda: _edited(IsolatedEvents, "_recertify", "h, t, following[t]", "h, t, before"),
+        Edit(IsolatedEvents, "_recertify", "h, t, following[t]", "h, t, before"),
     ),
     "the edges beside an isolated corner swapped": Mistake(
         "Before and after are confused.",
-        lambda: _edited(
+        Edit(
             IsolatedEvents,
             "_choose",
             "stays_after if order > 0 else stays_before",
@@ -466,7 +429,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "the order of copies swapped": Mistake(
         "The arguments of a function that is antisymmetric change places.",
-        lambda: _edited(
+        Edit(
             Repairs,
             "_repair_corner",
             "nearer_copy(certifier, vp, va, vb)",
@@ -477,27 +440,27 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "walls in line block the way": Mistake(
         "A path along a wall, or through its end, counts as one across it.",
-        lambda: _edited(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
+        Edit(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
         "questions/paths",
     ),
     "hits at the goal missed": Mistake(
         "The end of a closed segment is taken to be excluded.",
-        lambda: _edited(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
+        Edit(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
         "questions/places",
     ),
     "rounded constants taken for exact": Mistake(
         "Rounded numbers are taken for exact ones, where in most scenes they are.",
-        lambda: _edited(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
+        Edit(Enclosures, "_translated", "is_exact=is_exact", "is_exact=True"),
         AWKWARD_FAMILIES,
     ),
     "no contact for a double too long": Mistake(
         "A bound is rounded to the wrong side, where only the last double shows it.",
-        lambda: _edited(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
+        Edit(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
         "questions/budgets",
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
-        lambda: _edited(
+        Edit(
             search._Search,
             "run",
             "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
@@ -507,13 +470,13 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "the rounding of a square forgotten": Mistake(
         "The last operation of a formula is not in the bound of its error.",
-        lambda: _edited(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
+        Edit(radii, "_squares", "error + K * (square + np.abs(value))", "error"),
         "questions/arrays",
         SQUARES_ARE_MASKED,
     ),
     "numbers packed for another width": Mistake(
         "A value that is kept is used where it does not fit any more.",
-        lambda: _edited(Track, "packed", "kept != width", "kept < width"),
+        Edit(Track, "packed", "kept != width", "kept < width"),
     ),
 }
 """The mistakes by name."""

@@ -1,8 +1,6 @@
 """The runner of laws: cases are texts, faults are shrunk and kept, a new source moves few cases."""
 
-import gc
 import json
-import os
 from fractions import Fraction
 from random import Random
 
@@ -10,9 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt import Body, InputError, Scene, Translation, first_contact
-from exactpt.tiling.repairs import Repairs
-from fuzz import quick_worth
-from fuzz.laws import command, law, power, runner, scenes, table
+from fuzz.laws import command, law, runner, scenes, table
 from fuzz.laws.known import Known
 from fuzz.laws.law import Law
 from fuzz.laws.runner import Case, Tally, case_of, cases_of, count_of, look, shrunk
@@ -107,42 +103,6 @@ def test_law_whose_program_is_not_built_is_left_out(monkeypatch):
     assert result.output.startswith("old engine/same is left out: old engine is not built\n")
     assert "1 laws, seed" in result.output
     assert result.exit_code == 0
-
-
-@pytest.mark.plain
-def test_power_finds_a_planted_mistake_and_none_without_one():
-    (mistake,) = [one for one in quick_worth.planted() if one.name.endswith("events dropped")]
-    nothing = mistake._replace(make=lambda: None)
-
-    found = power.hunt(mistake, ["tiling/static"], 0, 10.0)
-    unfound = power.hunt(nothing, ["tiling/static"], 0, 0.5)
-
-    assert found.law == "tiling/static"
-    assert "certificates missing or superfluous" in found.why
-    assert found.cases < 20
-    assert unfound.law == ""
-    assert unfound.cases > 0
-
-
-@pytest.mark.plain
-def test_bug_mistake_of_an_edited_function_stays_made():
-    """Its context was closed as soon as nobody referred to it: the mistake was never made."""
-    (mistake,) = [one for one in quick_worth.planted() if "end of a corner" in one.name]
-    right = Repairs._repair_corner.__code__
-    try:
-        mistake.make()
-        gc.collect()
-        assert Repairs._repair_corner.__code__ is not right
-    finally:
-        Repairs._repair_corner.__code__ = right
-
-
-def test_power_of_a_process_that_dies_counts_as_found():
-    dying = quick_worth.Fault("dies", (), "", lambda: os._exit(3))
-
-    found = power.hunt(dying, ["tiling/static"], 0, 1.0)
-
-    assert found.law == "the process"
 
 
 def test_fault_is_shrunk_to_the_same_signature(broken):

@@ -24,7 +24,8 @@ from fuzz.cases import Case, Scenes, failure_of, run_case
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
 from fuzz.options import _report
-from fuzz.planted import PLANTED, _edited, hunt, table
+from fuzz.planted import PLANTED, hunt, table
+from fuzz.power.edits import Edit
 from fuzz.questions import checks
 from fuzz.questions.checks import QUESTIONS, Checked, checked
 from fuzz.small_scope.scope import planned
@@ -442,7 +443,7 @@ def test_a_flip_that_leaves_angles_without_certificates_is_found():
     Where the shadow edge ends at an end of the diagonal, the third angle of a triangle stays as it
     is, but had the certificate of another angle; `recertify` adds it to faces of four edges alone.
     """
-    with _edited(checks, "flip", "if was_triangle:", "if was_triangle and not changed:"):
+    with Edit(checks, "flip", "if was_triangle:", "if was_triangle and not changed:").made():
         results = [run_case(Case(number, "questions/flips", 0), witnesses=[]) for number in (0, 1)]
 
     assert any("certificates missing" in f.why for result in results for f in result.findings)

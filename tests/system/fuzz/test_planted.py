@@ -26,7 +26,8 @@ from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.variants import VARIANTS, difference, expected_time
-from fuzz.planted import PLANTED, Found, _edited, hunt, table
+from fuzz.planted import PLANTED, Found, hunt, table
+from fuzz.power.edits import Edit
 
 pytestmark = pytest.mark.plain
 
@@ -72,7 +73,7 @@ def test_edited_function_is_wrong_for_those_who_imported_it_too():
     from exactpt.pairs import scene_pieces
 
     body = Body("disc", [(0, 0)], radius="1/3")
-    with _edited(boxes, "radius_above", "enclosing_floats(body.exact_radius)[1]", "7.0"):
+    with Edit(boxes, "radius_above", "enclosing_floats(body.exact_radius)[1]", "7.0").made():
         assert scene_pieces.radius_above(body) == 7.0
     assert 1 / 3 <= scene_pieces.radius_above(body) < 0.34
 

@@ -1,0 +1,126 @@
+"""Temporary changes of one function: of its text, or of the whole function."""
+
+from __future__ import annotations
+
+import contextlib
+import inspect
+import textwrap
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from pathlib import Path
+from types import FunctionType
+from typing import Any, Final, NamedTuple
+from unittest.mock import patch
+
+from exactpt.errors import InputError
+
+__all__ = ["Edit", "Function", "Lines", "Replacement"]
+
+Function = Callable[..., Any]
+
+ROOT: Final = Path(__file__).parents[2]
+
+
+class Lines(NamedTuple):
+    """Lines of a file of the package.
+
+    Attributes:
+        file: the file, relative to the checkout.
+        first, last: the numbers of the lines.
+    """
+
+    file: str
+    first: int
+    last: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.first}"
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A function has another text, of which one part is replaced.
+
+    The code of the function is exchanged, not the function: whoever has imported it by name makes
+    the mistake too. A text outlives renumbered lines and renamed modules.
+
+    Attributes:
+        owner: the module or class.
+        name: the name of the function in it.
+        old, new: the part, which is there once, and what it is replaced by.
+    """
+
+    owner: Any
+    name: str
+    old: str
+    new: str
+
+    def _function(self) -> FunctionType:
+        function: FunctionType = inspect.unwrap(getattr(self.owner, self.name))
+        return function
+
+    def _text(self) -> str:
+        """Return the text of the function.
+
+        Raises:
+            InputError: unless it has the old part once.
+        """
+        text = textwrap.dedent(inspect.getsource(self._function()))
+        if text.count(self.old) != 1:
+            times = f"{self.name} has {text.count(self.old)} times the text {self.old!r}"
+            raise InputError(f"planted: {times}")
+        return text
+
+    @property
+    def lines(self) -> Lines:
+        """The lines of the old part."""
+        function, text = self._function(), self._text()
+        _, start = inspect.getsourcelines(function)
+        first = start + text[: text.index(self.old)].count("\n")
+        return Lines(_file_of(function), first, first + self.old.count("\n"))
+
+    @contextlib.contextmanager
+    def made(self) -> Iterator[None]:
+        """A context in which the function has the other text."""
+        right, made = self._function(), dict[str, Any]()
+        exec(self._text().replace(self.old, self.new), right.__globals__, made)
+        code = right.__code__
+        right.__code__ = inspect.unwrap(made[self.name]).__code__
+        try:
+            yield
+        finally:
+            right.__code__ = code
+
+
+@dataclass(frozen=True, slots=True)
+class Replacement:
+    """A function is replaced by a wrong one made from it.
+
+    Attributes:
+        owner: the module or class.
+        name: the name of the function in it.
+        make: makes the wrong function of the right one.
+    """
+
+    owner: Any
+    name: str
+    make: Callable[[Function], Function]
+
+    @property
+    def lines(self) -> Lines:
+        """The lines of the body of the function."""
+        function: FunctionType = inspect.unwrap(getattr(self.owner, self.name))
+        code = function.__code__
+        numbers = [line for *_, line in code.co_lines() if line and line > code.co_firstlineno]
+        return Lines(_file_of(function), min(numbers), max(numbers))
+
+    def made(self) -> AbstractContextManager[object]:
+        """A context in which the function is replaced."""
+        wrong = self.make(getattr(self.owner, self.name))
+        replaced: AbstractContextManager[object] = patch.object(self.owner, self.name, wrong)
+        return replaced
+
+
+def _file_of(function: FunctionType) -> str:
+    return str(Path(function.__code__.co_filename).relative_to(ROOT))
