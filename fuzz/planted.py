@@ -44,6 +44,8 @@ from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
 from fuzz.cases import QUESTION, Failure, failure_of
 from fuzz.changes.awkward import SUFFIX, awkward
+from fuzz.laws.runner import case_of
+from fuzz.laws.runner import look as look_at_case
 from fuzz.power.edits import Edit, Function, Replacement
 from fuzz.questions.command import KEPT, ask
 from fuzz.small_scope.look import look
@@ -58,7 +60,9 @@ MOST: Final = 14 * len(FAMILIES)
 FAMILIES_AS_THEY_ARE: Final = "families"
 AWKWARD_FAMILIES: Final = "awkward families"
 THE_SMALL_SCOPE: Final = "the small scope"
-"""Where a mistake is hunted; or by a question, "questions/..."."""
+"""Where a mistake is hunted; or by a question, "questions/...", or by a law, "laws/..."."""
+
+LAW: Final = "laws/"
 
 SMALL_SCOPE: Final = 1000
 """Number of scenes of the small scope in which a mistake is looked for."""
@@ -441,12 +445,12 @@ PLANTED: Final[dict[str, Mistake]] = {
     "walls in line block the way": Mistake(
         "A path along a wall, or through its end, counts as one across it.",
         Edit(FreeTriangles, "may_pass", "ends[1]) >= 0", "ends[1]) > 0"),
-        "questions/paths",
+        "laws/space/paths",
     ),
     "hits at the goal missed": Mistake(
         "The end of a closed segment is taken to be excluded.",
         Edit(locate, "cast", "beyond_goal(step.end) > 0", "beyond_goal(step.end) >= 0"),
-        "questions/places",
+        "laws/space/places",
     ),
     "rounded constants taken for exact": Mistake(
         "Rounded numbers are taken for exact ones, where in most scenes they are.",
@@ -456,7 +460,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     "no contact for a double too long": Mistake(
         "A bound is rounded to the wrong side, where only the last double shows it.",
         Edit(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
-        "questions/budgets",
+        "laws/budget/searches",
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
@@ -466,7 +470,7 @@ PLANTED: Final[dict[str, Mistake]] = {
             "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
             "if self._deadline is not None and clock.monotonic() - 3600 >",
         ),
-        "questions/budgets",
+        "laws/budget/looks",
     ),
     "the rounding of a square forgotten": Mistake(
         "The last operation of a formula is not in the bound of its error.",
@@ -525,6 +529,8 @@ def hunt(
     mistake = PLANTED[bug]
     if mistake.hunted == THE_SMALL_SCOPE:
         cases = _in_small_scope(mistake)
+    elif mistake.hunted.startswith(LAW):
+        cases = _by_law(mistake, most if mistake.masked else EASY * most, seed)
     elif mistake.hunted.startswith(QUESTION):
         cases = _by_question(mistake, most if mistake.masked else EASY * most, seed)
     else:
@@ -579,6 +585,18 @@ def _by_question(mistake: Mistake, most: int, seed: int) -> Cases:
         failure = None
         for finding in asked.findings[:1]:
             failure = Failure("question", finding.signature, finding.why, "")
+        yield mistake.hunted, failure
+
+
+def _by_law(mistake: Mistake, most: int, seed: int) -> Cases:
+    """Check cases of a law."""
+    law = mistake.hunted.removeprefix(LAW)
+    for number in range(most):
+        with mistake.made():
+            fault = look_at_case(case_of(law, seed, number)).fault
+        failure = None
+        if fault is not None:
+            failure = Failure("law", fault.signature, fault.why, "")
         yield mistake.hunted, failure
 
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from itertools import combinations, pairwise
-from pathlib import Path
 from random import Random
-from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from exactpt.collision.detector import first_contact
@@ -24,7 +22,6 @@ from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
-from exactpt.simulation.simulation import Simulation
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import audit_certificates
@@ -37,10 +34,8 @@ from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal
 from fuzz.questions.batched import wrong_in_batch
 from fuzz.questions.below import wrong_intervals
-from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
-from fuzz.questions.free_space import wrong_path, wrong_place
 from fuzz.questions.in_arrays import wrong_in_arrays
 from fuzz.questions.moving import wrong_clearance
 from fuzz.questions.rounded import rounded_pair, wrong_answer
@@ -53,10 +48,7 @@ from fuzz.questions.touching_rings import touching_pair, wrong_validity
 from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
-from fuzz.soak import Soak
 
-LIVING: Final = ("greedy", "lazy", "mixed")
-ACTIONS: Final = 40
 HOSTILE: Final = 50
 FLIPPED: Final = ("linear_points", "ballistic_points", "turning_points")
 FLIPS: Final = 30
@@ -223,11 +215,6 @@ def _incidences(
     return reference.incidences(scene, time, [(min(pair), max(pair)) for pair in pairs])
 
 
-def _chosen(random: Random) -> Checked:
-    """first_contact with ``since`` and ``ignoring``, and Planner."""
-    return Checked(*wrong_choice(random))
-
-
 def _touching(scene: Scene) -> set[frozenset[str]]:
     """Return the names of any two bodies that share a point at the start."""
     points = {body.name: body.exact_at(scene.exact_start) for body in scene.bodies}
@@ -294,33 +281,6 @@ def _touching_rings(random: Random) -> Checked:
         return Checked(scene or Scene([]), "valid or not", fault)
     scene = touching_pair(random)
     return Checked(scene, *wrong_answer_of_touching(random, scene))
-
-
-def _restored(random: Random) -> Checked:
-    """A run that has met a contact, and goes on unchanged, is restored as it was saved."""
-    scene = meeting_scene(random)
-    tiling = random.choice(LIVING)
-    simulation = Simulation(scene, tiling=tiling)
-    contacts: list[object] = []
-    for _ in simulation.run(on_contact=lambda _, contact: contacts.append(contact)):
-        pass
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "run.json"
-        simulation.save(path)
-        same = Simulation.restore(path).to_json() == simulation.to_json()
-    kind = f"{tiling}, {len(contacts)} contacts"
-    return Checked(scene, kind, None if same else f"{tiling}: it has another state")
-
-
-def _runs(random: Random) -> Checked:
-    """A living run in which plans, bodies, copies and saves come and go, see `fuzz.soak`."""
-    soak = Soak(random.getrandbits(32), random.choice(LIVING))
-    kind = f"{soak.tiling}, {ACTIONS} actions"
-    try:
-        soak.act(ACTIONS)
-    except AuditError as error:
-        return Checked(soak.simulation.scene, kind, f"{soak.tiling}, seed {soak.seed}: {error}")
-    return Checked(soak.simulation.scene, kind, None)
 
 
 def _filters(random: Random) -> Checked:
@@ -404,37 +364,17 @@ def _arrays(random: Random) -> Checked:
     return Checked(*wrong_in_arrays(random))
 
 
-def _places(random: Random) -> Checked:
-    """Places, rays and free segments."""
-    return Checked(*wrong_place(random))
-
-
-def _paths(random: Random) -> Checked:
-    """Shortest paths, from both ends."""
-    return Checked(*wrong_path(random))
-
-
-def _budgets(random: Random) -> Checked:
-    """Searches whose time is over: they end, and what they have reached is true."""
-    return Checked(*wrong_at_the_end(random))
-
-
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "small-scope": _scope,
     "flips": _flips,
     "overlay": _overlay,
     "filters": _filters,
     "distance": _distance,
-    "chosen": _chosen,
-    "restored": _restored,
     "approach": _approach,
     "intervals": _intervals,
     "below": _below,
     "moving": _moving,
     "convoy": _convoy,
-    "places": _places,
-    "paths": _paths,
-    "budgets": _budgets,
     "batch": _batch,
     "arrays": _arrays,
     "after-start": _after_start,
@@ -443,7 +383,6 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "spin": _spin,
     "cgal": _cgal,
     "space": _space,
-    "runs": _runs,
     "path": _path,
     "stated": _stated,
     "curves": _curves,
