@@ -16,17 +16,21 @@ from exactpt import Body, RunEvent, Scene, Simulation
 from exactpt.simulation.history import History
 from exactpt.testing import audit, reference
 from exactpt.testing.agreement import plain_contact
-from fuzz.laws.journeys import Journey, Moment
-from fuzz.laws.law import check_equal
+from fuzz.laws.journeys import Journey, Moment, touched_by
+from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.runs import restored
 from fuzz.laws.tilings import a_tiling
-from fuzz.witnesses import Difference
+from fuzz.witnesses import Difference, tilings_of
 
 __all__ = [
     "changed_run_is_a_new_scene",
     "events_are_the_same_in_any_way",
     "history_is_what_happened",
+    "pockets_are_tiled_again",
 ]
+
+COMINGS: Final = 12
+"""Number of changes, each of one body, in a case about pockets."""
 
 SMALL: Final = 30
 """Maximum number of vertices of a scene whose contact is that of the definition."""
@@ -52,6 +56,31 @@ def changed_run_is_a_new_scene(scene: Scene, random: Random) -> str:
         by_pairs = exactpt.first_contact(rest, method="pairs")
         check_equal("contact, by pairs", plain_contact(contact), plain_contact(by_pairs))
     return f"{tiling}, {'no contact' if contact is None else 'a contact'}"
+
+
+def pockets_are_tiled_again(scene: Scene, random: Random) -> str:
+    """Bodies come into pockets and go, and the mixed tiling is that of the bodies there.
+
+    It is changed, not built anew, unless geodesics along a hole change.
+    """
+    refuse_unless("mixed" in tilings_of(scene))
+    run = Simulation(Scene([], (scene.start, scene.end)), tiling="mixed")
+    absent = random.sample(scene.bodies, len(scene.bodies))
+    for _ in range(COMINGS):
+        here = [body.name for body in run.scene.bodies]
+        if len(here) > random.randint(0, len(scene.bodies) - 1):
+            absent.insert(0, run.body(random.choice(here)))
+            run.remove(absent[0].name)
+        else:
+            body = absent.pop(random.randrange(len(absent)))
+            if touched_by(body, run.scene, scene.start):
+                absent.append(body)
+                continue
+            run.add(body)
+        audit(run)
+    if not any(body.has_rings for body in scene.bodies):
+        check_equal("number of tilings built anew", run.stats["rebuilds"], 0)
+    return f"{min(len(scene.bodies), 9)} bodies"
 
 
 # Events

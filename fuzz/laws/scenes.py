@@ -22,6 +22,7 @@ from fuzz.changes.excerpts import scene_of
 from fuzz.changes.registry import CHANGES, changed
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.convoys import convoy
+from fuzz.questions.pockets import pocket_scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import (
     chevrons,
@@ -49,6 +50,18 @@ SHAPES: Final = (
     [(0, 0), (2, 0), (2, 2), (0, 2)],
 )
 DENOMINATORS: Final = (3, 7, 9, 13)
+HOOK: Final = [(0, 0), (6, 0), (6, 5)]
+CORNERED: Final = (
+    [(0, 0)],
+    [(0, 0), (3, 1)],
+    [(0, 0), (4, 0), (4, 4), (0, 4)],
+    [(0, 0), (5, 1), (1, 3)],
+    [(0, 0), (9, 0), (9, 2), (2, 2), (2, 9), (0, 9)],
+    HOOK,
+    [(0, 6), (-1, 1), (-6, 0), (-1, -1), (0, -6), (1, -1), (6, 0), (1, 1)],
+)
+"""Shapes with ends, corners and inner corners; the hook is a chain."""
+SPEEDS: Final = (-3, -2, -1, 1, 2, 3)
 CROWDS: Final = ("convex", "row", "convoy", "small_grid")
 
 
@@ -73,6 +86,18 @@ def fractions_scene(random: Random) -> Scene:
         shape = [(x + u, y + v) for u, v in random.choice(SHAPES)]
         bodies.append(Body(f"b{i}", shape, Translation([0, number(2)], [0, number(2)])))
     return Scene(bodies, time=(0, 3))
+
+
+def corner_scene(random: Random) -> Scene:
+    """Return a body of which a vertex comes to a vertex of a wall at t = 8, if nothing else does.
+
+    It comes to an end, to an inner corner, or corner on corner.
+    """
+    (mover, wall), (u, v) = random.choices(CORNERED, k=2), random.choices(SPEEDS, k=2)
+    (x, y), (z, w) = random.choice(mover), random.choice(wall)
+    shape = [(p - x + z - 8 * u, q - y + w - 8 * v) for p, q in mover]
+    moving = Body("body", shape, Translation([0, u], [0, v]), closed=mover is not HOOK)
+    return Scene([moving, Body("wall", wall, closed=wall is not HOOK)], time=(0, 20))
 
 
 def crossing_points(random: Random) -> Scene:
@@ -125,6 +150,8 @@ SOURCES: Final[dict[str, Source]] = {
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
     "far/relay": relay,
     "chevrons": chevrons,
+    "pockets": pocket_scene,
+    "tiny/corners": corner_scene,
     "far/convoy": convoy,
     "spinning": spinning_scene,
     "poses": path_scene,

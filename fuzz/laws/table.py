@@ -9,10 +9,12 @@ from fuzz.laws.alive import (
     changed_run_is_a_new_scene,
     events_are_the_same_in_any_way,
     history_is_what_happened,
+    pockets_are_tiled_again,
 )
 from fuzz.laws.choices import choices_are_each_pair_alone
 from fuzz.laws.costs import (
     bystander_costs_nothing,
+    change_costs_nothing_elsewhere,
     later_end,
     many_far_bodies,
     one_body_in_pieces,
@@ -215,12 +217,26 @@ LAWS: Final[dict[str, Law]] = {
     "enclosed/errors": Law(stated_errors_are_kept, ("own",), share=0.5),
     "enclosed/curves": Law(curves_are_within_their_errors, ("own",), share=0.5),
     "simulation/bounces": Law(
-        bounces_are_first_contacts, ("pair", "tiny/fractions", "tiny/crowded", "family"), most=24
+        bounces_are_first_contacts,
+        (
+            "pair",
+            "tiny/corners",
+            "tiny/fractions",
+            "tiny/crossing points",
+            "tiny/crowded",
+            "family",
+        ),
+        most=24,
     ),
     "simulation/population": Law(
         changed_run_is_a_new_scene,
         (*MOVING, "family", "tiny/crowded", "tiny/fractions", "points", "rings", "family+awkward"),
         share=3,
+        most=120,
+    ),
+    "simulation/pockets": Law(
+        pockets_are_tiled_again,
+        ("pockets", "pockets", "family/combs", "pockets+awkward", "rings"),
         most=120,
     ),
     "simulation/events": Law(
@@ -295,6 +311,12 @@ LAWS: Final[dict[str, Law]] = {
             ("later end", later_end),
         )
     },
+    "cost/changes": Law(
+        change_costs_nothing_elsewhere,
+        ("whole/convex", "whole/stars", "whole/turning", "whole/letters", "whole/frames"),
+        share=0.5,
+        cases=20,
+    ),
     "cost/later end, lazy": Law(
         bystander_costs_nothing(later_end, "--tiling", "lazy"),
         ("whole/convex", "whole/stars", "whole/turning"),
