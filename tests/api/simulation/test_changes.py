@@ -97,6 +97,18 @@ def test_contacts_are_not_proved_beyond_a_change():
     assert simulation.passed() <= simulation.now.low == 99
 
 
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_many_new_motions_of_one_body_leave_the_last_one(tiling):
+    """Motions that no body has any more are forgotten. At speed 1 it is at 8 at t = 8."""
+    simulation = at(two_boxes(), 2)
+    for k in range(200):
+        simulation.set_motion("left", Translation([2 - 2 * (k % 7), k % 7], [0]))
+    simulation.set_motion("left", Translation([0, 1]))
+
+    audit(simulation)
+    assert simulation.run_to_contact().time == 8
+
+
 # Bodies that come and go
 
 
