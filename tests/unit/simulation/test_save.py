@@ -38,6 +38,17 @@ def test_a_file_that_is_saved_twice_is_the_same(tmp_path):
     assert (tmp_path / "one.json").read_bytes() == (tmp_path / "two.json").read_bytes()
 
 
+def test_bug_unused_vertices_of_a_restored_run_have_a_name(tmp_path):
+    """IndexError: their body was the first one of none."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    simulation.remove(simulation.scene.bodies[0].name)
+    simulation.save(tmp_path / "run.json")
+    vertices = Simulation.restore(tmp_path / "run.json").kinetic.vertices
+
+    assert vertices.free
+    assert {vertices.name(v) for v in vertices.free} == {":-1"}
+
+
 def test_a_contact_at_the_start_is_saved(tmp_path):
     scene = Scene([Body("a", [(0, 0), (2, 0), (0, 2)]), Body("b", [(1, 0), (3, 0), (3, 2)])])
     simulation = Simulation(scene)
