@@ -15,9 +15,9 @@ from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink_data
 from exactpt.workers.work import HANGS
-from fuzz import corpus
 from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.changes.excerpts import scene_of
+from fuzz.laws import kept
 from fuzz.limits import TimeIsUp, TooSlow, limit, patience_of, signed
 from fuzz.questions.command import KEPT, ask
 from fuzz.witnesses import OLD, WITNESSES, Difference, LeftOutError
@@ -77,10 +77,10 @@ class Failure:
     scene: str
 
     def of(self, case: Case) -> Finding:
-        """Return the finding of a case, with the files of the corpus."""
+        """Return the finding of a case, with the file of the kept case."""
         number, family, seed = case
-        why = f"fuzz {self.witness}, {family} {seed}: {self.why}\n"
-        files = corpus.files_of(self.witness, json.loads(self.scene), why)
+        note = f"fuzz {self.witness}, {family} {seed}: {self.why}"
+        files = kept.file_of_finding(self.witness, json.loads(self.scene), note)
         return Finding(family, self.signature, f"case {number}, {family} {seed}: {self.why}", files)
 
 

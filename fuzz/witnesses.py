@@ -8,8 +8,8 @@ from typing import Final, TypeAlias
 from exactpt import Contact, Scene, Simulation, first_contact, proof_check, proof_scene, prove
 from exactpt.check import check_run
 from exactpt.collision.comparison import in_words
-from exactpt.motion.tileable import are_tileable
 from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.scene.groups import is_tileable
 from exactpt.testing import reference as defined
 from exactpt.testing.agreement import disagreement
 from exactpt.testing.audits import run_and_audit
@@ -189,7 +189,7 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 def tilings_of(scene: Scene) -> list[str]:
     """The tilings that must support a scene, if there are any."""
-    return tilings_for(scene) if are_tileable(scene.bodies) else []
+    return tilings_for(scene) if is_tileable(scene) else []
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:

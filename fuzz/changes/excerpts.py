@@ -1,6 +1,6 @@
 """Sub-scenes: a few of the bodies of a scene, so that a campaign covers many more scenes.
 
-Failures involve few bodies (see the corpus), and a scene of a few bodies takes a hundredth of
+Failures involve few bodies (see tests/cases), and a scene of a few bodies takes a hundredth of
 the time of a whole one. Every `WHOLE`-th scene is taken as it is.
 """
 
@@ -12,6 +12,7 @@ from typing import Final
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
+from exactpt.scene.groups import kept_groups
 from exactpt.scene.scene import Scene
 from exactpt.testing.scenes import generate
 from fuzz.changes import awkward
@@ -78,4 +79,6 @@ def subscene(scene: Scene, rng: Random) -> Scene:
             break
         chosen.append(i)
         size += max(3, scene.bodies[i].size)
-    return Scene([scene.bodies[i] for i in sorted(chosen)], (scene.start, scene.end))
+    bodies = [scene.bodies[i] for i in sorted(chosen)]
+    names = [[body.name for body in some] for some in (scene.bodies, bodies)]
+    return Scene(bodies, (scene.start, scene.end), ignoring=kept_groups(scene.ignoring, *names))

@@ -174,7 +174,8 @@ def halved(scene: Scene) -> Scene:
 
     Bodies given by keyframes are left as they are.
     """
-    return Scene([_halved_body(body) for body in scene.bodies], (scene.start, scene.end))
+    bodies = [_halved_body(body) for body in scene.bodies]
+    return Scene(bodies, (scene.start, scene.end), ignoring=scene.ignoring)
 
 
 def _halved_body(body: Body) -> Body:
@@ -240,7 +241,8 @@ def _side(bodies: Sequence[Body], rings: Mapping[str, Sequence[_Ring]], old: Sce
                 vertices[body.name, number] = feature
                 if k < len(ring.edges):
                     edges[body.name, number] = ring.edges[k]
-    return Side(Scene(bodies, (old.start, old.end)), vertices, edges, groups)
+    new = Scene(bodies, (old.start, old.end), ignoring=old.ignoring)
+    return Side(new, vertices, edges, groups)
 
 
 def _each(change: Callable[[Body, Random], Iterator[_Ring]]) -> Callable[..., Image | None]:
@@ -262,7 +264,7 @@ def _permuted(scene: Scene, random: Random) -> Image | None:
     if bodies == list(scene.bodies):
         bodies.reverse()
     old = untouched(scene)
-    new = Scene(bodies, (scene.start, scene.end))
+    new = Scene(bodies, (scene.start, scene.end), ignoring=scene.ignoring)
     return Image(old, Side(new, old.vertices, old.edges, old.groups))
 
 

@@ -19,7 +19,7 @@ SUFFIX: Final = "/thin"
 def thinned(scene: Scene, rng: Random) -> Scene:
     """A scene with half of its bodies, chosen at random, replaced by parts of their boundaries."""
     bodies = [_part(body, rng) if rng.random() < 0.5 else body for body in scene.bodies]
-    return Scene(bodies, (scene.start, scene.end))
+    return Scene(bodies, (scene.start, scene.end), ignoring=scene.ignoring)
 
 
 def _part(body: Body, rng: Random) -> Body:

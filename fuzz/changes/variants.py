@@ -69,7 +69,8 @@ class Variant:
         if self.reorder:
             bodies.reverse()
         span = sorted(self.rate * t + self.delay for t in (scene.start, scene.end))
-        return Scene(bodies, span)
+        groups = [[self.name(text) for text in group] for group in scene.ignoring]
+        return Scene(bodies, span, ignoring=groups)
 
     def name(self, name: str) -> str:
         """The new name of a body."""

@@ -13,6 +13,7 @@ import click
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
+from fuzz.laws import kept
 from fuzz.laws.known import KNOWN, reason_of
 from fuzz.laws.runner import (
     COSTS,
@@ -32,9 +33,6 @@ from fuzz.laws.table import LAWS
 from fuzz.options import FAILED, HELP, INTERRUPTED
 
 __all__ = ["again", "keep", "kept_file", "record_costs", "run"]
-
-KEPT: Final = Path(__file__).parents[2] / "tests" / "cases"
-"""Folder of kept cases."""
 
 SAME: Final = 1.5
 """Ratio of milliseconds up to which a recorded cost stays as it is."""
@@ -163,13 +161,15 @@ def keep(words: tuple[str, ...], note: str, shrink: float) -> None:
 def kept_file(fault: Fault, note: str) -> tuple[Path, str]:
     """Return the file of a kept case, and its text."""
     name = re.sub(r"\W+", "-", str(fault.case)).strip("-")
-    kept = {
-        "law": fault.case.law,
-        "case": fault.case.place,
-        "note": note or fault.why,
-        "scene": fault.scene.to_json(),
-    }
-    return KEPT / f"{name}.json", json.dumps(kept, indent=1) + "\n"
+    text = kept.text_of(
+        {
+            "note": note or fault.why,
+            "law": fault.case.law,
+            "case": fault.case.choices,
+            "scene": fault.scene.to_json(),
+        }
+    )
+    return kept.FOLDER / f"{name}.json", text
 
 
 @click.command("costs", context_settings=HELP)

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from exactpt import Scene
-from fuzz import filter_attacks, overlays
+from fuzz import filter_attacks, overlays, predicate_attacks
 from fuzz.changes.images import TRANSFORMATIONS
 from fuzz.hostile import readers
 from fuzz.hostile.files import FORMATS, hostile
@@ -32,6 +32,7 @@ __all__ = [
     "drawings_have_their_parts",
     "filters_say_what_is_true",
     "hostile_files_are_refused",
+    "predicates_are_as_defined",
     "queries_in_space_are_as_defined",
     "stated_errors_are_kept",
     "touching_rings_are_valid_or_not",
@@ -98,6 +99,14 @@ def filters_say_what_is_true(scene: Scene, random: Random) -> str:  # noqa: ARG0
         make = random.choice([filter_attacks.hostile, filter_attacks.extreme])
         attack = make(random, random.choice(DEGREES))
     return f"{10 * round(10 * decided / ATTACKS)} % decided"
+
+
+def predicates_are_as_defined(scene: Scene, random: Random) -> str:  # noqa: ARG001
+    """Predicates of moving vertices are as defined, by filters, in arrays and exactly."""
+    attack = predicate_attacks.hostile(random)
+    outcome, fault = predicate_attacks.wrong(random, attack)
+    _raise("predicate", fault, attack)
+    return outcome
 
 
 def hostile_files_are_refused(scene: Scene, random: Random) -> str:  # noqa: ARG001

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
@@ -18,6 +19,7 @@ from exactpt import Translation as Moved
 from exactpt.kernel.numbers import QQ
 from exactpt.testing.reference.shapes import bodies_meet
 from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.runs import bounce_in_doubles
 from fuzz.witnesses import Difference
 
 __all__ = ["Journey", "Moment", "touched_by"]
@@ -116,7 +118,7 @@ class Journey:
         """Let bodies bounce, stop or go anywhere."""
         if run.contacts > RESPONSES:
             return
-        kinds = [self._bounce, self._go_anywhere]
+        kinds = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
         if not self._keeps_shapes:
             kinds.append(exactpt.stop)
         respond = self._go_anywhere if contact.kind == "self" else self._random.choice(kinds)
@@ -199,7 +201,8 @@ class Journey:
         kinds = ["onward"]
         if not self._keeps_shapes:
             kinds += ["rest", "straight", "straight", "falling", "there and back"]
-            kinds += ["turning", "deforming"] if body.size > 1 else []
+            kinds += ["deforming"] if body.size > 1 else []
+            kinds += ["turning"] if body.size > 1 and not body.angle_error else []
         kind = self._random.choice(kinds)
         if kind == "straight":
             return rest.with_motion(Moved(x, y))

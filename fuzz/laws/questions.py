@@ -11,7 +11,6 @@ import pickle
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
 from math import isqrt
 from random import Random
 from typing import Any, Final, TypeAlias
@@ -83,14 +82,15 @@ def a_time(scene: Scene, random: Random, steps: int = 8) -> QQ:
 
 
 def two_names(scene: Scene, random: Random) -> tuple[str, str]:
-    """Return the names of two bodies of a scene.
+    """Return the names of two bodies of a scene that do not ignore each other.
 
     Raises:
-        LeftOutError: if there is only one.
+        LeftOutError: if no two bodies count.
     """
-    refuse_unless(len(scene.bodies) >= 2)
-    first, second = random.sample([body.name for body in scene.bodies], 2)
-    return first, second
+    pairs = reference.counted_pairs(scene)
+    refuse_unless(pairs)
+    first, second = random.choice(pairs)
+    return random.choice([(first.name, second.name), (second.name, first.name)])
 
 
 def _a_distance(scene: Scene, random: Random) -> QQ:  # noqa: ARG001
@@ -156,8 +156,9 @@ def _of_a_pickle(scene: Scene, _: Asked) -> Answer:
 
 def _between_all_pairs(scene: Scene, _: Asked) -> Answer:
     refuse_unless(not any(body.has_rings or body.keyframes for body in scene.bodies))
-    names = [body.name for body in scene.bodies]
-    contact = exactpt.first_contact(scene, between=list(combinations(names, 2)))
+    pairs = [(a.name, b.name) for a, b in reference.counted_pairs(scene)]
+    refuse_unless(pairs)
+    contact = exactpt.first_contact(scene, between=pairs)
     whole = exactpt.first_contact(scene)
     if whole is not None and any(pair.body == pair.other for pair in whole.pairs):
         raise LeftOutError  # a body touches itself, which no pair of two bodies does
@@ -212,7 +213,7 @@ def _by_pair(intervals: Iterable[ContactInterval]) -> Answer:
 def _intervals_of_two(scene: Scene, _: Asked) -> Answer:
     return _by_pair(
         interval
-        for a, b in combinations(scene.bodies, 2)
+        for a, b in reference.counted_pairs(scene)
         for interval in exactpt.contact_intervals(scene, a.name, b.name)
     )
 
@@ -229,7 +230,7 @@ def defined_intervals(
 
 def _defined_contacts(scene: Scene, _: Asked) -> Answer:
     found = {}
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in reference.counted_pairs(scene):
         intervals = defined_intervals(scene, a, b)
         if intervals:
             found[a.name, b.name] = intervals
@@ -272,7 +273,7 @@ def _least(times: Iterable[tuple[AlgebraicNumber | None, tuple[str, str]]]) -> A
 
 def _first_within_of_two(scene: Scene, distance: QQ) -> Answer:
     times = []
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in reference.counted_pairs(scene):
         time = exactpt.first_within(scene, a.name, b.name, fraction(distance))
         assert not isinstance(time, exactpt.Approach)  # noqa: S101 - of all bodies alone
         times.append((time, (a.name, b.name)))
@@ -281,7 +282,7 @@ def _first_within_of_two(scene: Scene, distance: QQ) -> Answer:
 
 def _defined_within(scene: Scene, distance: QQ) -> Answer:
     times = []
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in reference.counted_pairs(scene):
         reach = distance + a.exact_radius + b.exact_radius
         time = reference.first_within(a, b, scene.time, reach**2)
         times.append((time, (a.name, b.name)))

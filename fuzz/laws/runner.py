@@ -13,6 +13,7 @@ from typing import Final, NamedTuple
 
 from exactpt import InputError, Scene
 from exactpt.testing import shrink
+from fuzz.laws.kept import PREFIX, kept_of_source
 from fuzz.laws.known import reason_of
 from fuzz.laws.scenes import drawn, is_source, made
 from fuzz.laws.table import LAWS
@@ -20,7 +21,7 @@ from fuzz.limits import TooSlow, limit, signed
 from fuzz.witnesses import Difference, LeftOutError
 
 __all__ = ["TIERS", "Case", "Fault", "Looked", "Tally", "case_of", "cases_of", "count_of",
-           "look", "run_for", "runnable", "shrunk"]  # fmt: skip
+           "laws_of_cases", "look", "run_for", "runnable", "shrunk"]  # fmt: skip
 
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a case counts as hanging."""
@@ -33,6 +34,9 @@ TIERS: Final = {"quick": 30.0, "full": 240.0}
 
 USUAL: Final = 20.0
 """Milliseconds of a case of a law without recorded costs."""
+
+OWN: Final = "own"
+"""The source of laws that draw their own cases."""
 
 NOT_ASKED: Final = "not asked"
 NO_SCENE: Final = "no such scene"
@@ -84,6 +88,17 @@ class Case(NamedTuple):
             raise InputError(f"case: unknown source or change, got {source!r}")
         return cls(law, source, seed, number)
 
+    @property
+    def choices(self) -> str:
+        """The place from which the random choices follow.
+
+        A kept case has at first the choices with which its law was broken.
+        """
+        if self.number > 0:
+            return self.place
+        case = kept_of_source(self.source)
+        return case.place if case is not None and case.law == self.law else self.place
+
 
 class Fault(NamedTuple):
     """A broken law.
@@ -108,12 +123,12 @@ class Fault(NamedTuple):
         law, place = self.case.law, self.case.place
         data = json.dumps(self.scene.to_json())
         size = f"shrunk from {self.vertices} to {self.scene.vertex_count} vertices"
-        return "\n".join([
-            f"{law}: {self.why}",
-            f"  again: python -m fuzz again '{law}' '{place}'",
-            f"  keep:  python -m fuzz keep  '{law}' '{place}'      (writes tests/cases)",
-            f"  scene: {data}      {size}",
-        ])  # fmt: skip
+        lines = [f"{law}: {self.why}", f"  again: python -m fuzz again '{law}' '{place}'"]
+        if not place.startswith(PREFIX):
+            lines.append(
+                f"  keep:  python -m fuzz keep  '{law}' '{place}'      (writes tests/cases)"
+            )
+        return "\n".join([*lines, f"  scene: {data}      {size}"])
 
 
 class Looked(NamedTuple):
@@ -175,7 +190,7 @@ def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
     """Return the outcome of a case, and its fault."""
     try:
         with limit(PATIENCE):
-            return LAWS[case.law].check(scene, Random(f"choices {case}")), None
+            return LAWS[case.law].check(scene, Random(f"choices {case.law} {case.choices}")), None
     except LeftOutError:
         return NOT_ASKED, None
     except Difference as difference:
@@ -219,6 +234,18 @@ def count_of(law: str, tier: str) -> int:
 def runnable(laws: Iterable[str]) -> list[str]:
     """Return those of some laws whose programs are built."""
     return [law for law in laws if LAWS[law].is_runnable]
+
+
+def laws_of_cases(needs: str = "") -> list[str]:
+    """Return the laws about a kept case: those of any scene that need this other program.
+
+    Laws that draw their own cases or have the same few in each run are about others.
+    """
+    return [
+        name
+        for name, law in LAWS.items()
+        if law.needs == needs and law.cases is None and law.sources != (OWN,)
+    ]
 
 
 def run_for(laws: Sequence[str], seed: int, seconds: float) -> Iterator[Looked]:

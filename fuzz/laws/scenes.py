@@ -17,9 +17,11 @@ from exactpt import Body, Scene, Translation
 from exactpt.testing import FAMILIES as PAIRS
 from exactpt.testing import make_question
 from exactpt.testing.scenes import CATALOGUE, EVERY, SPINNING, generate
-from fuzz import corpus
+from fuzz import many
 from fuzz.changes.excerpts import scene_of
 from fuzz.changes.registry import CHANGES, changed
+from fuzz.general import NUMBERS, general_scene, lanes
+from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.convoys import convoy
 from fuzz.questions.pockets import pocket_scene
@@ -115,8 +117,8 @@ def _of_scope(random: Random) -> Scene:
     return planned(random.randrange(SEEDS)).scene
 
 
-def _of_corpus(random: Random) -> Scene:
-    return Scene.load(random.choice(corpus.files()))
+def _kept(name: str) -> Source:
+    return lambda _: kept.kept(name).scene
 
 
 def _whole(name: str) -> Source:
@@ -129,6 +131,10 @@ def _nothing(random: Random) -> Scene:  # noqa: ARG001
 
 def _crowd(random: Random) -> Scene:
     return generate(random.choice(CROWDS), random.randrange(SEEDS))
+
+
+def _lanes(random: Random) -> Scene:
+    return lanes(random.choice(NUMBERS), random.randrange(SEEDS), bodies=random.choice([16, 64]))
 
 
 SOURCES: Final[dict[str, Source]] = {
@@ -145,9 +151,12 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/crossing points": crossing_points,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
-    "corpus": _of_corpus,
+    **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},
     "crowd": _crowd,
     **{f"whole/{name}": _whole(name) for name in EVERY if name not in SPINNING},
+    **{f"many/{make.__name__}": make for make in many.KINDS},
+    "general/any": general_scene,
+    "general/lanes": _lanes,
     "far/relay": relay,
     "chevrons": chevrons,
     "pockets": pocket_scene,
@@ -158,16 +167,17 @@ SOURCES: Final[dict[str, Source]] = {
     "own": _nothing,
 }
 """Some bodies of a scene of a family; pairs of `exactpt.testing`; small integers, with ties; scenes
-of the small scope, and scenes of faults of the past; whole scenes of many bodies; contacts at the
-last double before bodies turn back, and far from the origin; bodies that turn at a constant rate or
-along poses; no bodies, for laws that draw their own cases. A new family is a new row here, and all
-laws take it."""
+of the small scope, and those of tests/cases; whole scenes of many bodies; bodies in general
+position, near or far in space and time; contacts at the last double before bodies turn back, and
+far from the origin; bodies that turn at a constant rate or along poses; no bodies, for laws that
+draw their own cases. A new family is a new row here, and all laws take it."""
 
 KINDS: Final[dict[str, tuple[str, ...]]] = {
     "turning": ("turning", "turning_stars", "turning_points", "rolling_discs"),
     "deforming": ("deforming", "keyframed"),
     "curved": ("ballistic", "ballistic_points", "parabola_points"),
     "pieces": ("pieces", "piecewise_points", "rounded_motions"),
+    "convex": tuple(CATALOGUE["convex"]),
     "points": tuple(CATALOGUE["points"]),
     "radii": tuple(CATALOGUE["rounded"]),
     "rings": (*CATALOGUE["rings"], *CATALOGUE["touching"]),

@@ -29,6 +29,7 @@ from fuzz.laws.drawn import (
     drawings_have_their_parts,
     filters_say_what_is_true,
     hostile_files_are_refused,
+    predicates_are_as_defined,
     queries_in_space_are_as_defined,
     stated_errors_are_kept,
     touching_rings_are_valid_or_not,
@@ -51,7 +52,19 @@ from fuzz.laws.runs import (
     stops_change_nothing,
 )
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
-from fuzz.laws.tilings import filters_decide_exactly, kinetic_is_static
+from fuzz.laws.tilings import (
+    arrays_are_tiled_as_bodies,
+    at_once_is_one_by_one,
+    events_lead_to_the_next_tiling,
+    filters_decide_exactly,
+    general_position_needs_no_rebuild,
+    greedy_in_two_ways,
+    kinetic_is_static,
+    mixed_tiling_has_its_regions,
+    most_decisions_are_of_filters,
+    tiling_is_as_defined,
+    tilings_at_events_are_whole,
+)
 from fuzz.laws.together import (
     array_queries_are_first_contacts,
     arrays_are_single_calls,
@@ -73,28 +86,59 @@ COUNTED: Final = tuple(
 )  # fmt: skip
 """Whole scenes of families, in which costs are compared."""
 FAMILY: Final = ("family", "family+awkward", "family+thin")
-TILED: Final = ("whole", *FAMILY)
+TILED: Final = ("whole", *FAMILY, "many", "points")
 """Faults of tilings need many bodies; those of filters and of thin bodies need few."""
+GENERAL: Final = tuple(
+    f"whole/{name}"
+    for name in ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces",
+                 "keyframed", "linear_points", "ballistic_points", "piecewise_points")
+)  # fmt: skip
+"""Families in general position."""
 
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
         as_defined("first contact", several=4),
-        (*TINY, *CLOSE, "tiny/rounded", "corpus"),
+        (*TINY, *CLOSE, "tiny/rounded", "case"),
         share=4,
         most=30,
     ),
     "first contact/methods": Law(
         two_ways_agree("first contact"),
-        (*FAMILY, *CLOSE, "corpus", "radii", "rings", "tiny/rings", "far"),
+        (*FAMILY, *CLOSE, "case", "radii", "rings", "tiny/rings", "far"),
         share=3,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
     ),
-    "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "corpus"), share=6),
+    "tiling/static": Law(kinetic_is_static, (*TILED, "tiny/fractions", "scope", "case"), share=6),
     "tiling/filters": Law(
-        filters_decide_exactly, (*TILED, "family+nudged", "tiny/fractions"), share=4
+        filters_decide_exactly,
+        (*TILED, "family+nudged", "tiny/fractions", "general", "many+nudged"),
+        share=4,
     ),
+    "tiling/at once": Law(at_once_is_one_by_one, ("many", "whole", "family"), share=0.5),
+    "tiling/defined": Law(
+        tiling_is_as_defined,
+        ("points", "convex", "points+awkward", "convex+awkward", "whole/linear_points"),
+        most=40,
+    ),
+    "tiling/two ways": Law(
+        greedy_in_two_ways, ("convex", "many", "convex+awkward", "tiny/fractions"), share=0.5
+    ),
+    "tiling/regions": Law(
+        mixed_tiling_has_its_regions, ("whole", "family", "rings", "many"), share=0.5
+    ),
+    "tiling/events": Law(
+        events_lead_to_the_next_tiling, ("whole", "points", "many", "convex+awkward"), share=0.5
+    ),
+    "tiling/whole": Law(tilings_at_events_are_whole, ("whole", "family", "tiny/fractions", "case")),
+    "tiling/general position": Law(
+        general_position_needs_no_rebuild, (*GENERAL, "general", "many/scattered"), share=0.5
+    ),
+    "tiling/arrays": Law(
+        arrays_are_tiled_as_bodies, ("many/doubles", "many/doubles+rounded"), share=0.5
+    ),
+    "cost/filters": Law(most_decisions_are_of_filters, ("general",), share=0.5),
     "contacts/reference": Law(
         as_defined("contacts"),
         ("tiny/meeting", "tiny/pair", "tiny/rounded", "tiny/meeting+awkward", "pair+nudged"),
@@ -158,7 +202,7 @@ LAWS: Final[dict[str, Law]] = {
         most=40,
     ),
     "simulation/restored": Law(restored_run_goes_on, ("family", "tiny/meeting", "pair"), most=40),
-    "simulation/living": Law(living_run_is_static, ("tiny/pair",)),
+    "simulation/living": Law(living_run_is_static, ("own",)),
     "batch/single": Law(
         batch_is_single_calls,
         (
@@ -286,6 +330,7 @@ LAWS: Final[dict[str, Law]] = {
     "exchange/drawings": Law(drawings_have_their_parts, ("own",), share=0.5),
     "scene/touching rings": Law(touching_rings_are_valid_or_not, ("own",), share=0.5),
     "filters/adversary": Law(filters_say_what_is_true, ("own",)),
+    "filters/predicates": Law(predicates_are_as_defined, ("own",)),
     "space queries/reference": Law(queries_in_space_are_as_defined, ("own",), share=0.5),
     "tiling/cgal": Law(
         cgal_accepts_runs, ("family", "scope", "tiny/fractions"), most=40, needs="cgal"

@@ -155,7 +155,10 @@ def _numbers(body: Body) -> Iterator[QQ]:
 
 
 def _is_double(number: QQ) -> bool:
-    return Fraction(float(number)) == Fraction(str(number))
+    try:
+        return Fraction(float(number)) == Fraction(str(number))
+    except OverflowError:  # beyond all doubles
+        return False
 
 
 def _in_arrays(

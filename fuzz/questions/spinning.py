@@ -101,6 +101,8 @@ def _number(random: Random) -> Fraction:
 def case_of(scene: Scene) -> Case:
     """Return True if the true time is between the bounds, and these are near enough."""
     bounds = first_contact_enclosed(scene)
+    if bounds is not None and any(name == other for name, other in bounds.pairs):
+        return Case("a body and itself", None)  # the truth is about two bodies
     truth = Truth(scene)
     try:
         time = truth.first_contact()

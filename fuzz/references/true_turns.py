@@ -67,7 +67,8 @@ class _Turning:
         motion: Any = body.motion
         self.radius = real(body.radius)
         self.edges = body.edges or [(0, 0)]
-        self.has_interior = body.has_interior
+        self.rings = body.rings if body.has_interior else ()
+        self.starts = [outline.start for outline, *_ in body.parts]
         self.pivot = zero = mpmath.mpf(0)
         self.span = (-mpmath.inf, mpmath.inf)  # before and after, the body rests
         long = end
@@ -258,14 +259,22 @@ def _distance(a: _Turning, b: _Turning, p: Places, q: Places) -> float:
 
 
 def _overlap(a: _Turning, b: _Turning, p: Places, q: Places) -> bool:
-    """Return True if edges cross, or one core contains a vertex of the other."""
+    """Return True if edges cross, or one core contains a part of the other."""
     for (i, j), (k, l) in product(a.edges, b.edges):
         if (
             _side(p[i], p[j], q[k]) * _side(p[i], p[j], q[l]) < 0
             and _side(q[k], q[l], p[i]) * _side(q[k], q[l], p[j]) < 0
         ):
             return True
-    return (b.has_interior and _winds(q, p[0])) or (a.has_interior and _winds(p, q[0]))
+    return any(_contains(b, q, p[v]) for v in a.starts) or any(
+        _contains(a, p, q[v]) for v in b.starts
+    )
+
+
+def _contains(body: _Turning, places: Places, v: complex) -> bool:
+    """Return True if a point is in a body: around it are an odd number of its rings."""
+    around = [_winds(places[ring.start : ring.stop], v) for ring in body.rings]
+    return sum(around) % 2 == 1
 
 
 def _side(a: complex, b: complex, c: complex) -> float:
@@ -273,5 +282,7 @@ def _side(a: complex, b: complex, c: complex) -> float:
 
 
 def _winds(ring: Places, v: complex) -> bool:
+    if v in ring:
+        return False
     turned = np.angle((np.roll(ring, -1) - v) / (ring - v)).sum()
     return bool(abs(turned) > 3)

@@ -1,6 +1,7 @@
 """The runner of laws: cases are texts, faults are shrunk and kept, a new source moves few cases."""
 
 import json
+import re
 from fractions import Fraction
 from random import Random
 
@@ -8,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt import Body, InputError, Scene, Translation, first_contact
-from fuzz.laws import command, law, runner, scenes, table
+from fuzz.laws import command, kept, law, runner, scenes, table
 from fuzz.laws.known import Known
 from fuzz.laws.law import Law
 from fuzz.laws.runner import Case, Tally, case_of, cases_of, count_of, look, shrunk
@@ -63,10 +64,10 @@ def test_case_in_every_run_is_the_same(broken):
 
 
 def test_patterns_take_turns():
-    patterns = "tiny", "corpus", "turning+awkward"
+    patterns = "tiny", "case", "turning+awkward"
     drawn = [scenes.drawn(patterns, "lot", number) for number in range(6)]
 
-    assert [name.split("/")[0] for name in drawn] == ["tiny", "corpus", "family"] * 2
+    assert [name.split("/")[0] for name in drawn] == ["tiny", "case", "family"] * 2
     assert drawn[2].endswith("+awkward")
 
 
@@ -175,22 +176,101 @@ def invoked(name, *words):
 
 
 def test_run_again_and_keep_report_the_same_fault(broken, monkeypatch, tmp_path):
-    monkeypatch.setattr(command, "KEPT", tmp_path)
+    monkeypatch.setattr(kept, "FOLDER", tmp_path)
     place = first_fault(broken).case.place
 
     ran = invoked(command.run, broken, "--seconds", "0.5", "--seed", "0", "--shrink", "1")
     repeated = invoked(command.again, broken, place, "--shrink", "1")
-    kept = invoked(command.keep, broken, place, "--note", "a triangle", "--shrink", "1")
+    written = invoked(command.keep, broken, place, "--note", "a triangle", "--shrink", "1")
 
     assert ran.exit_code == repeated.exit_code == 1
     assert f"{broken}: triangle" in ran.output
     assert f"{broken}: triangle" in repeated.output
     (path,) = tmp_path.glob("*.json")
     data = json.loads(path.read_text())
-    assert str(path) in kept.output
+    assert str(path) in written.output
     assert (data["law"], data["case"], data["note"]) == (broken, place, "a triangle")
     scene = Scene.from_json(data["scene"])
     assert look(Case.parse(f"{broken} {place}"), scene).fault.signature == "triangle"
+
+
+@pytest.fixture
+def kept_in(monkeypatch, tmp_path):
+    """A function that writes the file of a kept case, named `box`, and makes it a source."""
+    monkeypatch.setattr(kept, "FOLDER", tmp_path)
+
+    def write(data):
+        (tmp_path / "box.json").write_text(kept.text_of(data))
+        monkeypatch.setitem(scenes.SOURCES, "case/box", lambda _: kept.kept("box").scene)
+
+    return write
+
+
+def test_kept_case_is_checked_with_the_choices_that_broke_its_law(monkeypatch, kept_in):
+    def draws(scene, random):
+        raise Difference("draw", str(random.random()))
+
+    monkeypatch.setitem(table.LAWS, "test/draws", Law(draws, ("tiny/pair",)))
+    found = look(case_of("test/draws", 0, 0)).fault
+    kept_in(
+        {
+            "note": "a draw",
+            "law": "test/draws",
+            "case": found.case.place,
+            "scene": found.scene.to_json(),
+        }
+    )
+
+    first, second = (look(Case("test/draws", "case/box", 0, number)).fault for number in (0, 1))
+
+    assert first.why == found.why
+    assert second.why != found.why
+    assert "again: python -m fuzz again 'test/draws' 'case/box:0:0'" in first.report
+    assert "python -m fuzz keep" not in first.report
+
+
+def test_again_of_a_kept_case_reports_its_fault(broken, kept_in):
+    triangle = Body("a", [(0, 0), (1, 0), (0, 1)])
+    kept_in({"note": "a triangle", "scene": Scene([triangle], (0, 1)).to_json()})
+
+    result = invoked(command.again, broken, "case/box:0:0", "--shrink", "1")
+
+    assert result.exit_code == 1
+    assert f"{broken}: triangle: 1 bodies" in result.output
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"note": None}, "box.json: no note, got the keys ['scene']"),
+        ({"scene": None}, "box.json: no scene, got the keys ['note']"),
+        ({"notes": "two"}, "box.json: unknown keys, got the keys ['note', 'notes', 'scene']"),
+        ({"note": " "}, "box.json: the note is empty"),
+        ({"law": "tiling/static"}, "box.json: law and case belong together"),
+        ({"scene": {"exactpt": 1, "time": [1, 0], "bodies": []}}, "box.json: time"),
+    ],
+)
+def test_kept_case_of_another_form_is_refused(kept_in, change, words):
+    data = {"note": "nothing", "scene": Scene([], (0, 1)).to_json()} | change
+    kept_in({key: value for key, value in data.items() if value is not None})
+
+    with pytest.raises(InputError, match=re.escape(words)):
+        kept.kept("box")
+
+
+def test_kept_scene_is_written_with_one_line_for_each_body():
+    text = kept.text_of({"note": "a pair", "scene": pair().to_json()})
+
+    assert [line[:15] for line in text.splitlines()] == [
+        "{",
+        ' "note": "a pai',
+        ' "scene": {"exa',
+        '  {"name": "a",',
+        '  {"name": "b",',
+        " ]}",
+        "}",
+    ]
+    assert Scene.from_json(json.loads(text)["scene"]) == pair()
 
 
 def test_again_of_a_case_that_holds_reports_its_outcome():

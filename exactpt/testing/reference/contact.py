@@ -8,7 +8,7 @@ compared as sets, at and between all times at which that can change.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations, combinations_with_replacement, islice, product
+from itertools import combinations, islice, product
 from typing import NamedTuple, TypeAlias
 
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -49,8 +49,8 @@ from exactpt.testing.reference.times import (
 from exactpt.testing.reference.within import intervals_within
 
 __all__ = [
-    "FirstContact", "NamedIncidence", "contact_intervals", "first_contact", "first_meeting",
-    "incidences",
+    "FirstContact", "NamedIncidence", "contact_intervals", "counted_pairs", "first_contact",
+    "first_meeting", "incidences",
 ]  # fmt: skip
 
 Pair: TypeAlias = tuple[Body, Body]
@@ -100,12 +100,33 @@ class FirstContact(NamedTuple):
         return {frozenset(pair) for pair in found}
 
 
+def counted_pairs(scene: Scene) -> list[Pair]:
+    """Return any two bodies of a scene that count: no group of the scene has both.
+
+    >>> from exactpt import Body, Scene
+    >>> links = [Body(name, [(0, 0)]) for name in ("link 1", "link 2", "post")]
+    >>> [(a.name, b.name) for a, b in counted_pairs(Scene(links, ignoring=[["link*"]]))]
+    [('link 1', 'post'), ('link 2', 'post')]
+    """
+    groups = [_members(scene, texts) for texts in scene.ignoring]
+    every = combinations(scene.bodies, 2)
+    return [(a, b) for a, b in every if not any({a.name, b.name} <= group for group in groups)]
+
+
+def _members(scene: Scene, texts: Iterable[str]) -> set[str]:
+    """Return the names of the bodies that the texts of a group mean."""
+    names = {body.name for body in scene.bodies}
+    patterns = [text[:-1] for text in texts if text not in names]
+    return {name for name in names if name in texts or any(map(name.startswith, patterns))}
+
+
 def first_contact(
     scene: Scene, between: Iterable[Sequence[str]] | None = None
 ) -> FirstContact | None:
     """Return the first contact in the closed time span of a scene; None if there is none.
 
-    Every vertex of every body is compared with every edge of every body. A body with a radius
+    Every vertex of every body is compared with every edge of every body, without those of bodies
+    that ignore each other in the scene. A body with a radius
     does not touch itself, nor does one whose rings touch at the start: it keeps its shape.
 
     >>> from exactpt import Body, Scene, Translation
@@ -153,9 +174,9 @@ def _reach(a: Body, b: Body) -> QQ:
 
 def _pairs(scene: Scene, between: Iterable[Sequence[str]] | None) -> list[Pair]:
     """Return the pairs of bodies that count, those of a body and itself included."""
-    every = combinations_with_replacement(scene.bodies, 2)
+    every = [*counted_pairs(scene), *((body, body) for body in scene.bodies)]
     if between is None:
-        return list(every)
+        return every
     named = {frozenset(scene.body(name).name for name in pair) for pair in between}
     return [(a, b) for a, b in every if frozenset({a.name, b.name}) in named]
 
@@ -383,7 +404,7 @@ def first_meeting(scene: Scene) -> tuple[AlgebraicNumber, set[frozenset[str]]] |
         scene: the scene.
     """
     found: list[tuple[AlgebraicNumber, frozenset[str]]] = []
-    for a, b in combinations(scene.bodies, 2):
+    for a, b in counted_pairs(scene):
         intervals = contact_intervals(a, b, scene.time)
         if intervals:
             since, _ = intervals[0]

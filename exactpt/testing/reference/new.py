@@ -9,7 +9,7 @@ times, by vertical lines. Chains overlap if they cross (`exactpt.testing.referen
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations, combinations_with_replacement, pairwise, product
+from itertools import combinations, pairwise, product
 from typing import TypeAlias
 
 from exactpt.geometry.predicates import Point, orient2d
@@ -17,7 +17,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene, scene_of
-from exactpt.testing.reference.contact import first_contact
+from exactpt.testing.reference.contact import counted_pairs, first_contact
 from exactpt.testing.reference.crossing import chains_cross
 from exactpt.testing.reference.features import bodies_meet, coordinate_differences, orientations
 from exactpt.testing.reference.shapes import Points, edges_of, is_on_segment, segments_cross
@@ -47,8 +47,8 @@ def first_new_contact(
         between: the pairs of names that count, twice the same name for a body with itself; all
             if not given.
     """
-    names = [body.name for body in scene.bodies]
-    every = combinations_with_replacement(names, 2)
+    of_two = [(a.name, b.name) for a, b in counted_pairs(scene)]
+    every = [*of_two, *((body.name, body.name) for body in scene.bodies)]
     found: list[tuple[AlgebraicNumber, frozenset[str]]] = []
     for one, other in every if between is None else between:
         a, b = scene.body(one), scene.body(other)

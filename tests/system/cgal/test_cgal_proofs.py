@@ -7,11 +7,12 @@ from random import Random
 
 import pytest
 
-from exactpt import BudgetExceeded, InputError, Scene, proof_check, proof_scene, prove
+from exactpt import BudgetExceeded, InputError, proof_check, proof_scene, prove
 from exactpt.cgal import check_proof
 from exactpt.check import check_scene
 from exactpt.testing.scenes import FAMILIES, POINTS, generate
-from fuzz import corpus
+from fuzz.laws.kept import kept, names
+from fuzz.witnesses import tilings_of
 
 pytestmark = pytest.mark.cgal
 
@@ -182,11 +183,11 @@ def test_a_rational_time_has_its_name(in_cpp):
         assert in_cpp(scene, proof)[0] == in_python(scene, proof)[0] == code, name
 
 
-@pytest.mark.parametrize("path", corpus.files(), ids=lambda path: path.stem)
-def test_proofs_of_the_corpus(in_cpp, path):
-    scene = Scene.load(path)
-    for tiling in TILINGS:
-        _, file, proof = prove(scene, tiling=tiling, scene_file=path.read_bytes())
+@pytest.mark.parametrize("name", names())
+def test_proofs_of_a_kept_case_are_accepted(in_cpp, name):
+    scene = kept(name).scene
+    for tiling in tilings_of(scene):
+        _, file, proof = prove(scene, tiling=tiling)
         code, answer = in_cpp(file, proof)
         assert (code, answer.split(": ")[0]) == (0, "accepted")
 

@@ -16,11 +16,11 @@ from exactpt import InputError, Scene, first_contact
 from exactpt.testing import scenes
 from exactpt.testing.scenes import generate
 from exactpt.tiling.start import tilings_for
-from fuzz import corpus
 from fuzz.__main__ import FAMILIES as FUZZED
 from fuzz.__main__ import MIXED
 from fuzz.campaign import Check, Counts, Finding, Item, Progress, Result, Step, _lost, campaign
 from fuzz.cases import Case, Scenes, failure_of, run_case
+from fuzz.laws import kept
 from fuzz.laws.runner import cases_of, look
 from fuzz.limits import TooSlow, limit
 from fuzz.normals import wrong_normal
@@ -323,7 +323,7 @@ def test_nothing_has_a_table_too():
 
 
 def test_a_failure_is_shrunk_and_saved(tmp_path, monkeypatch):
-    monkeypatch.setattr(corpus, "FOLDER", tmp_path)
+    monkeypatch.setattr(kept, "FOLDER", tmp_path)
     with PLANTED["even roots ignored"].made():
         found = (
             finding
@@ -334,16 +334,17 @@ def test_a_failure_is_shrunk_and_saved(tmp_path, monkeypatch):
         )
         finding = next(found)
         _report(finding)
-        (path,) = corpus.files(tmp_path)
-        again = failure_of("reference", Scene.load(path))
+        (name,) = kept.names()
+        case = kept.kept(name)
+        again = failure_of("reference", case.scene)
 
     assert again is not None
     assert again.signature == finding.signature
-    assert path.name.startswith("reference-")
-    name = finding.why.split(": ")[0].split(", ")[1]
-    assert f"fuzz reference, {name}: " in path.with_suffix(".txt").read_text()
-    assert len(Scene.load(path).bodies) == 2
-    assert failure_of("reference", Scene.load(path)) is None
+    assert name.startswith("reference-")
+    family = finding.why.split(": ")[0].split(", ")[1]
+    assert case.note.startswith(f"fuzz reference, {family}: ")
+    assert len(case.scene.bodies) == 2
+    assert failure_of("reference", case.scene) is None
 
 
 def test_a_generator_that_breaks_is_a_failure_of_its_case(monkeypatch):

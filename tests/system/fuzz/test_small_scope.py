@@ -20,9 +20,9 @@ from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from exactpt.testing import reference
-from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.changes.images import halved
+from fuzz.laws import kept
 from fuzz.planted import PLANTED
 from fuzz.small_scope import tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
@@ -457,7 +457,7 @@ def test_a_planted_bug_is_found_in_a_few_scenes(bug):
 
 @pytest.mark.plain
 def test_a_fault_is_printed_shrunk_and_saved(tmp_path, monkeypatch):
-    monkeypatch.setattr(corpus, "FOLDER", tmp_path)
+    monkeypatch.setattr(kept, "FOLDER", tmp_path)
 
     with PLANTED["vertex on vertex ignored"].made():
         done = CliRunner().invoke(small_scope, ["--count", "20", "--shrink", "2", "--jobs", "0"])
@@ -465,9 +465,9 @@ def test_a_fault_is_printed_shrunk_and_saved(tmp_path, monkeypatch):
     assert done.exit_code == 1
     assert "saved: " in done.output
     number = int(done.output.split("\nscene ")[1].split(":")[0])
-    first, *_ = corpus.files(tmp_path)
-    assert f"small scope {number}" in "".join(p.read_text() for p in tmp_path.glob("*.txt"))
-    assert Scene.load(first).vertex_count <= planned(number).scene.vertex_count
+    cases = [kept.kept(name) for name in kept.names()]
+    assert any(f"small scope {number}" in case.note for case in cases)
+    assert cases[0].scene.vertex_count <= planned(number).scene.vertex_count
 
 
 def test_the_command(tmp_path):

@@ -15,7 +15,6 @@ from exactpt.scene.written import to_json
 from exactpt.testing.audits import run_and_audit
 from exactpt.testing.scenes import FAMILIES, POINTS, RINGS, ROUNDED, TOUCHING, generate
 from exactpt.tiling.start import TILINGS
-from fuzz import corpus
 from fuzz.cases import failure_of
 from fuzz.changes.excerpts import MOST, WHOLE, scene_of, subscene
 from fuzz.changes.thin import SUFFIX
@@ -67,23 +66,6 @@ def test_no_witness_objects_to_more(family, program):
         scene = scene_of(family, seed)
         for witness in PRESENT:
             assert failure_of(witness, scene, seed) is None
-
-
-FILES = corpus.files()
-BY_CGAL = {"cgal", "proof"}
-MARKED = [pytest.param(name, marks=pytest.mark.cgal if name in BY_CGAL else ()) for name in PRESENT]
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-@pytest.mark.parametrize("witness", MARKED)
-def test_what_once_failed_does_not(path, witness):
-    assert failure_of(witness, Scene.load(path), patience=20.0) is None
-
-
-@every("path", FILES)
-def test_every_scene_of_the_corpus_has_a_note(path):
-    assert path.with_suffix(".txt").read_text(encoding="utf-8").strip()
-    assert json.loads(path.read_text(encoding="utf-8"))["exactpt"] == 1
 
 
 # Variants: symmetries of scenes, and what makes them see a difference

@@ -8,7 +8,6 @@ import random
 from collections import Counter
 
 import pytest
-from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
 from exactpt import AlgebraicNumber, Polynomial
 from exactpt.certificates import coefficients
@@ -19,6 +18,7 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.normalization import normalization_for
 from exactpt.motion.track import difference, orientation_polynomial, track
 from fuzz.filter_attacks import asked, judge
+from fuzz.general import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
 STYLES = ["free", "collinear", "near", "lanes"]
 

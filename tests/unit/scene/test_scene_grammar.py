@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 from commands import code_of
 from folding import every
-from random_motions import MOTIONS, random_scene
 
 from exactpt import (
     Body,
@@ -26,6 +25,7 @@ from exactpt import (
     first_contact,
 )
 from exactpt.motion.stated_errors import pivots_of
+from fuzz.general import MOTIONS, random_scene
 
 TABLE = json.loads(Path("tests/data/grammar-misuse.json").read_text(encoding="utf-8"))
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]

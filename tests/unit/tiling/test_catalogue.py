@@ -1,4 +1,7 @@
-"""The catalogue: which tiling is meant, and a structure that is registered from outside."""
+"""Which tiling is meant, and a structure that is registered from outside (docs/extending.md).
+
+The interface of such a structure is that of modules of `exactpt.tiling` and of certificates.
+"""
 
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
@@ -16,7 +19,7 @@ from exactpt.testing import reference
 from exactpt.testing.scenes import generate
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.start import TILINGS, start_tiling, tilings_for
+from exactpt.tiling.start import start_tiling
 
 PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRules")
 
@@ -30,34 +33,28 @@ def registered():
         catalogue.ENTRIES.remove(entry)
 
 
-def test_the_names_of_the_tilings():
-    assert TILINGS == ("greedy", "mixed", "lazy")
-    assert tilings_for(generate("convex", 0)) == ["greedy", "mixed", "lazy"]
-    assert tilings_for(generate("linear_points", 0)) == ["greedy", "mixed", "lazy", "incremental"]
-
-
-@pytest.mark.parametrize("is_convex", [False, True])
-def test_auto_asks_for_convex_bodies_only_where_it_matters(is_convex):
-    asked = []
-
-    def convex():
-        asked.append(1)
-        return is_convex
-
-    assert catalogue.choose("auto", points=True, convex=convex).name == "incremental"
-    assert catalogue.choose("mixed", points=False, convex=convex).name == "mixed"
-    assert asked == []
-    chosen = catalogue.choose("auto", points=False, convex=convex)
-    assert chosen.name == ("greedy" if is_convex else "mixed")
-    assert asked == [1]
-
-
 def test_an_unknown_tiling_is_refused_with_the_names_of_all():
     with pytest.raises(
         InputError,
         match="no tiling 'x'; there are: auto, incremental, greedy, mixed, lazy",
     ):
-        catalogue.find("x", convex=False)
+        Simulation(generate("convex", 0), tiling="x")
+
+
+def test_a_tiling_of_points_refuses_other_bodies():
+    scene = Scene([Body("p", [(0, 0)]), Body("s", [(1, 0), (2, 0)])])
+
+    with pytest.raises(InputError, match="body 's': has 2 vertices: the incremental tiling is for"):
+        Simulation(scene, tiling="incremental")
+
+
+@pytest.mark.parametrize("points", [[], [(1, 2)], [(1, 2), (1, 3)]])
+def test_tiling_of_hardly_any_points_has_no_faces(points):
+    simulation = Simulation(Scene([Body(f"p{i}", [p]) for i, p in enumerate(points)]))
+
+    assert list(simulation.run()) == []
+    assert (simulation.name, simulation.tiling.faces) == ("incremental", ())
+    assert len(simulation.tiling.edges) == (len(points) == 2)
 
 
 @pytest.mark.parametrize("family", ["convex", "stars", "pieces", "turning"])
