@@ -6,7 +6,8 @@ from itertools import pairwise
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.indices import HalfEdge
+from exactpt.indices import HalfEdge, VertexId
+from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 
 
@@ -47,3 +48,40 @@ def audit_star(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> None:
         side_u, side_w = predicates.orientation(v, base, u), predicates.orientation(v, base, w)
         if side_u < side_w or (side_u == side_w and predicates.orientation(v, u, w) <= 0):
             raise AuditError(f"vertex {v}: the edges to {u} and {w} are in the wrong order")
+
+
+def audit_connected(mesh: Mesh, vertices: Vertices) -> None:
+    """Check that all vertices are connected, except for those in the holes of rigid bodies.
+
+    A body inside another one is connected to nothing, though no angle need be wrong.
+
+    Raises:
+        AuditError: if they are not.
+    """
+    if not vertices.bodies:
+        return
+    holes = sum(
+        len(rings) - 1
+        for moving in vertices.bodies
+        if not moving.is_tiled
+        for rings in moving.body.parts
+    )
+    count = _count_components(mesh, vertices)
+    if count != 1 + holes:
+        raise AuditError(f"{count} components, with {holes} holes")
+
+
+def _count_components(mesh: Mesh, vertices: Vertices) -> int:
+    """Return the number of components of the graph of all edges."""
+    m = mesh.map
+    left = set(vertices.ids())
+    count = 0
+    while left:
+        count += 1
+        reached: list[VertexId] = [left.pop()]
+        while reached:
+            star = m.star(mesh.ring_edge[reached.pop()])
+            new = left.intersection(m.target(h) for h in star)
+            left -= new
+            reached.extend(new)
+    return count

@@ -23,7 +23,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.stored import Stored
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
-from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.pseudotriangulation.audit import audit_angles, audit_connected
 from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
 from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -346,6 +346,7 @@ class Engine(Tiling):
         self.table.angles.clear()
         try:
             self._build(later)
+            audit_connected(self.mesh, self.vertices)
         except (AuditError, RebuildNeeded):
             return False  # bodies overlap there, or the tiling differs before
         following = self.next_number()

@@ -29,9 +29,8 @@ from exactpt.testing.reference import Nearest, Place
 from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.questions import a_time, two_names
-from fuzz.laws.space import a_space
+from fuzz.laws.space import a_space, some_point
 from fuzz.questions.by_cgal import DifferError, are_within, witness
-from fuzz.questions.free_space import some_point
 from fuzz.witnesses import Difference, LeftOutError, contact_by, tilings_of
 
 __all__ = [

@@ -17,15 +17,17 @@ from typing import Final, TypeAlias
 from click.testing import CliRunner
 
 import exactpt
-from exactpt import Body, Pieces, Scene, Translation
+from exactpt import Body, Pieces, Scene, Simulation, Translation
 from exactpt.cli import cli
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.testing import ending_at
 from fuzz.laws.law import Check, check_equal, refuse_unless
+from fuzz.laws.tilings import a_tiling
 from fuzz.witnesses import Difference
 
 __all__ = [
     "bystander_costs_nothing",
+    "change_costs_nothing_elsewhere",
     "later_end",
     "many_far_bodies",
     "one_body_in_pieces",
@@ -36,11 +38,17 @@ __all__ = [
 SHARE: Final = 1.25
 """Ratio by which a count may grow."""
 
+SHARE_OF_CHANGES: Final = 1.5
+"""Ratio by which the certificates of a change may grow: the faces around a body are others then."""
+
 MARGIN: Final = 8
 """Number by which a count may grow beyond that, for each bystander."""
 
 COUNTED: Final = ("certificates", "exact")
 """Counts of the command: pairs of features or certificates, and exact decisions."""
+
+CHANGED: Final = 8
+"""Number of bodies whose changes are counted."""
 
 Bystander: TypeAlias = Callable[[Scene], tuple[Scene, int]]
 """Returns a scene with bystanders, and their number."""
@@ -132,3 +140,68 @@ def _counts(scene: Scene, options: tuple[str, ...]) -> tuple[dict[str, int], obj
     counts = {name: int(stats.get(name, 0)) for name in COUNTED}
     contact = data["contact"]
     return {**counts, "looks": clock.looks}, contact and contact["time"]
+
+
+# Changes of a run
+
+
+def change_costs_nothing_elsewhere(scene: Scene, random: Random) -> str:
+    """A new motion, a body that goes and one that comes touch as many certificates in a crowd."""
+    tiling, velocity = a_tiling(scene, random), (random.randint(-3, 3), random.randint(-3, 3))
+    names = [body.name for body in random.sample(scene.bodies, min(CHANGED, len(scene.bodies)))]
+    near = _surrounded(scene, 12, 10)
+    far = _surrounded(near, 48, 4)
+    before, after = (_certificates_of_changes(s, tiling, names, velocity) for s in (near, far))
+    for kind, count in before.items():
+        most = SHARE_OF_CHANGES * count + MARGIN * len(names)
+        if after[kind] > most:
+            raise Difference(kind, f"{count} became {after[kind]}, at most {most:.0f}")
+    return tiling
+
+
+def _surrounded(scene: Scene, count: int, distance: int) -> Scene:
+    """Return a scene in a ring of small bodies at rest, that many times as far away as it is large.
+
+    There are ``count`` of them on each half of the circle, at (1 - t^2, 2 t) / (1 + t^2).
+    """
+    size, _ = _size_and_far(scene)
+    radius = distance * size
+    side = radius / (4 * count)
+    bodies = []
+    for k in range(count):
+        t = QQ(2 * k + 1 - count, count)
+        x, y = radius * (1 - t * t) / (1 + t * t), radius * 2 * t / (1 + t * t)
+        for a, b in ((x, y), (-x, -y)):
+            shape = [(a, b), (a + side, b), (a, b + side)]
+            name = f"bystander {len(scene.bodies) + len(bodies)}"
+            bodies.append(Body(name, [tuple(map(fraction, p)) for p in shape]))
+    return Scene([*scene.bodies, *bodies], (scene.start, scene.end))
+
+
+def _certificates_of_changes(
+    scene: Scene, tiling: str, names: list[str], velocity: tuple[int, int]
+) -> dict[str, int]:
+    """Return the number of certificates that changes of some bodies touch, by kind of change."""
+    run = Simulation(scene, tiling=tiling)
+    refuse_unless(run.contact is None)
+    touched = _touched(run)
+    counts = {"new motion": 0, "removed": 0, "added": 0}
+    for name in names:
+        body = run.body(name)
+        moved = body.with_motion(exactpt.onward(body, scene.start, velocity))
+        for kind, change in (
+            ("new motion", lambda: run.set_motions({name: moved})),  # noqa: B023 - called at once
+            ("removed", lambda: run.remove(name)),  # noqa: B023
+            ("added", lambda: run.add(body)),  # noqa: B023
+        ):
+            change()
+            counts[kind] += _touched(run) - touched
+            touched = _touched(run)
+    return counts
+
+
+def _touched(run: Simulation) -> int:
+    """Return how many certificates a run has made, or has found to be unnecessary."""
+    made, skipped = run.stats["certificates"], run.stats["skipped"]
+    assert isinstance(made, int) and isinstance(skipped, int)  # noqa: S101, PT018 - documented
+    return made + skipped

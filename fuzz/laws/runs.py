@@ -4,27 +4,38 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from fractions import Fraction
+from itertools import islice
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from typing import Final
 
 import exactpt
-from exactpt import Body, Contact, InputError, Scene, Simulation
-from exactpt.kernel.numbers import fraction
-from exactpt.testing import audit, reference
+from exactpt import (
+    AlgebraicNumber,
+    Body,
+    Contact,
+    InputError,
+    RunEvent,
+    Scene,
+    Simulation,
+    Translation,
+)
+from exactpt.testing import reference
 from exactpt.testing.agreement import plain_contact
 from fuzz.laws.law import check_equal, refuse_unless
-from fuzz.laws.questions import a_time
 from fuzz.laws.tilings import a_tiling
 from fuzz.soak import Soak
 from fuzz.witnesses import Difference, LeftOutError
 
 __all__ = [
+    "bounce_in_doubles",
     "bounces_are_first_contacts",
     "living_run_is_static",
-    "population_is_a_new_scene",
+    "restored",
     "restored_run_goes_on",
+    "stops_change_nothing",
 ]
 
 EVENTS: Final = 12
@@ -36,6 +47,9 @@ ACTIONS: Final = 12
 BOUNCES: Final = 4
 """Number of contacts until a run that bounces is left."""
 
+STOPS: Final = 12
+"""Number of stops on the way of a run."""
+
 LIVING: Final = ("greedy", "lazy", "mixed")
 
 
@@ -45,13 +59,15 @@ def _ignore(simulation: Simulation, contact: Contact) -> None:
 
 def restored_run_goes_on(scene: Scene, random: Random) -> str:
     """A run saved at some event, and its copy, have its state and go on as the run does."""
-    run = Simulation(scene, tiling=a_tiling(scene, random))
+    exact_only = random.random() < 0.2
+    run = Simulation(scene, tiling=a_tiling(scene, random), exact_only=exact_only)
     for _ in range(random.randint(0, EVENTS)):
         if not run.step():
             break
-    again = _restored(run)
+    again = restored(run)
     copied = run.copy() if random.random() < 0.5 else copy.deepcopy(run)
     check_equal("state of the restored run", again.to_json(), run.to_json())
+    check_equal("counts of the restored run", again.stats, run.stats)
     respond: Callable[[Simulation, Contact], object] | None
     respond = random.choice([None, exactpt.stop, _ignore])
     events, events_restored, events_copied = (
@@ -60,23 +76,91 @@ def restored_run_goes_on(scene: Scene, random: Random) -> str:
     check_equal("events after restoring", events_restored, events)
     check_equal("events of the copy", events_copied, events)
     check_equal("contacts after restoring", again.contacts, run.contacts)
+    check_equal("state of the run restored at its end", restored(run).to_json(), run.to_json())
     return f"{min(run.contacts, 2)} contacts, {'some' if events else 'no'} events"
 
 
-def _restored(run: Simulation) -> Simulation:
+def restored(run: Simulation) -> Simulation:
+    """Return the run that is read from its file."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "run.json"
         run.save(path)
         return Simulation.restore(path)
 
 
+def stops_change_nothing(scene: Scene, random: Random) -> str:
+    """However a run is stopped on its way, its events and its contact are the same.
+
+    Up to a time are exactly the events that are not after it, also beside an event. What is
+    proved to be free of contacts is before the contact. Each exact decision has its reason.
+    """
+    tiling, exact_only = a_tiling(scene, random), random.random() < 0.2
+    whole = Simulation(scene, tiling=tiling, exact_only=exact_only)
+    events = list(whole.run())
+    run = Simulation(scene, tiling=tiling, exact_only=exact_only)
+    seen: list[RunEvent] = []
+    for _ in range(STOPS):
+        _check_proved(run, whole.contact)
+        _go_on(run, events, seen, random)
+    seen += run.run()
+    check_equal("events", [e.to_json() for e in seen], [e.to_json() for e in events])
+    check_equal("contact", run.contact, whole.contact)
+    check_equal("time at the end", run.now, whole.now)
+    _check_reasons(run, exact_only=exact_only)
+    return f"{tiling}, {'some' if events else 'no'} events"
+
+
+def _go_on(run: Simulation, events: list[RunEvent], seen: list[RunEvent], random: Random) -> None:
+    """Let a run go on by a step, to its next event, or up to a time near that."""
+    kind = random.choice(["step", "next event", "a time", "a time"])
+    if kind == "step":
+        seen += run.step()
+    elif kind == "next event":
+        seen += islice(run.run(), 1)
+    elif run.contact is None:
+        end = AlgebraicNumber(run.scene.end)
+        ahead = events[len(seen)].time if len(seen) < len(events) else end
+        until = _a_time_near(ahead, run, random)
+        seen += run.run(until=until)
+        passed = [event for event in events if event.time <= until]
+        check_equal(f"number of events up to {until}", len(seen), len(passed))
+        if run.contact is None:
+            check_equal("time now", run.now, min(until, run.scene.end))
+
+
+def _a_time_near(event: AlgebraicNumber, run: Simulation, random: Random) -> Fraction:
+    """Return the time of an event or an end of its canonical interval, or one a little beside."""
+    low, high = map(Fraction, event.canonical_interval())
+    beside = Fraction(1, 2 ** random.choice([1, 30, 60, 100]))
+    time = random.choice([low, high, (low + high) / 2, low - beside, high + beside])
+    earliest = Fraction(run.now.canonical_interval()[1])
+    return max(time, earliest)
+
+
+def _check_proved(run: Simulation, contact: Contact | None) -> None:
+    for proved in (run.passed(), run.reached()):
+        if contact is not None and proved is not None and contact.time <= proved:
+            raise Difference("free of contacts", f"up to {proved}, but one at {contact.time}")
+
+
+def _check_reasons(run: Simulation, *, exact_only: bool) -> None:
+    """Check that the reasons of exact decisions are complete."""
+    reasons, exact = run.stats["reasons"], run.stats["exact"]
+    assert isinstance(reasons, dict)  # noqa: S101 - a documented type
+    check_equal("number of reasons", sum(reasons.values()), exact)
+    if exact_only:
+        check_equal("decisions of filters", run.stats["filtered"], 0)
+    elif any(key.endswith("asked") for key in reasons):
+        raise Difference("exact without need", f"{reasons}")
+
+
 def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     """Each contact of a run that bounces is the first one of what was planned, by all pairs.
 
-    And the history of the run is one scene without a contact, at whose end its bodies are.
+    Two bodies that only translate always separate.
     """
     tiling = a_tiling(scene, random)
-    run = Simulation(scene, tiling=tiling, record=True)
+    run = Simulation(scene, tiling=tiling)
     refuse_unless(run.contact is None)
     bounce = exactpt.Bounce(restitution=random.choice(["0", "1/2", "1"]))
     planned = scene
@@ -87,78 +171,39 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
         contacts += 1
         expected = reference.first_contact(planned)
         check_equal("contact", plain_contact(contact), expected)
-        try:
-            bounce(simulation, contact)
-        except InputError as error:
-            if "beyond the range of doubles" not in str(error):
-                raise
-            raise LeftOutError from None
+        bounce_in_doubles(bounce, simulation, contact)
         planned = _from_now_on(simulation)
 
     for _ in run.run(on_contact=respond):
         if contacts == BOUNCES:
             break
-    else:
-        _check_history(run)
+    if len(scene.bodies) == 2 and all(map(_only_translates, scene.bodies)):
+        check_equal("contact that ends the run", run.contact, None)
     return f"{tiling}, {contacts} contacts"
+
+
+def bounce_in_doubles(bounce: exactpt.Bounce, run: Simulation, contact: Contact) -> None:
+    """Let bodies bounce.
+
+    Raises:
+        LeftOutError: if a velocity is no double.
+    """
+    try:
+        bounce(run, contact)
+    except InputError as error:
+        if "beyond the range of doubles" not in str(error):
+            raise
+        raise LeftOutError from None
+
+
+def _only_translates(body: Body) -> bool:
+    is_rigid = all(f.degree <= 0 for vertex in body.vertices for f in vertex)
+    return isinstance(body.motion, Translation) and is_rigid and not body.keyframes
 
 
 def _from_now_on(run: Simulation) -> Scene:
     """Return the bodies of a run from now on, which is a rational time."""
-    return Scene(run.scene.bodies, (fraction(run.now.exact_low), run.scene.end))
-
-
-def _check_history(run: Simulation) -> None:
-    """Check the history of a run that has come to its end."""
-    history = run.history()
-    if not history.is_scene:
-        return
-    past = history.scene()
-    contact = exactpt.first_contact(past, method="pairs")
-    check_equal("contact in the history", contact, run.contact)
-    for body in run.scene.bodies:
-        check_equal("end of the history", past.body(body.name).at(past.end), body.at(past.end))
-
-
-def population_is_a_new_scene(scene: Scene, random: Random) -> str:
-    """After a body has come, or one has gone, a run is that of the bodies that are there."""
-    tiling = a_tiling(scene, random)
-    refuse_unless(len(scene.bodies) >= 2)
-    *others, last = random.sample(scene.bodies, len(scene.bodies))
-    run = Simulation(Scene(others, (scene.start, scene.end)), tiling=tiling)
-    time = fraction(a_time(scene, random))
-    refuse_unless(time < scene.end and run.contact is None)
-    for _ in run.run(until=time):
-        pass
-    refuse_unless(run.contact is None)
-    try:
-        later = Scene([*others, last], (time, scene.end))
-    except InputError:
-        raise LeftOutError from None  # it has touched itself before, and is no body any more
-    expected = reference.first_contact(later)
-    if expected is not None and expected.kind == "initial":
-        return f"{tiling}, {_refused_to_come(run, last)}"
-    run.add(last)
-    audit(run)
-    outcome = "came"
-    if len(others) > 1 and random.random() < 0.5:
-        run.remove(random.choice(others).name)
-        audit(run)
-        expected = reference.first_contact(_from_now_on(run))
-        outcome = "came and went"
-    contact = run.run_to_contact()
-    check_equal("time of the contact", contact and contact.time, expected and expected.time)
-    return f"{tiling}, {outcome}, {'no contact' if contact is None else 'a contact'}"
-
-
-def _refused_to_come(run: Simulation, body: Body) -> str:
-    """Check that a body that touches another one is refused."""
-    try:
-        run.add(body)
-    except InputError:
-        audit(run)
-        return "refused"
-    raise Difference("add", f"{body.name!r} touches another body, and is accepted")
+    return Scene(run.scene.bodies, (run.now.low, run.scene.end))
 
 
 def living_run_is_static(scene: Scene, random: Random) -> str:  # noqa: ARG001

@@ -23,13 +23,19 @@ from fuzz.changes.registry import CHANGES, changed
 from fuzz.general import NUMBERS, general_scene, lanes
 from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
-from fuzz.questions.budgets import relay
 from fuzz.questions.convoys import convoy
 from fuzz.questions.crossed import crossed_pair
 from fuzz.questions.pieces import planks, walkers
+from fuzz.questions.pockets import pocket_scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scaled import scaled_pair, wheels
-from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.scenes import (
+    chevrons,
+    crowded_scene,
+    distant_scene,
+    meeting_scene,
+    relay,
+)
 from fuzz.questions.spinning import path_scene, spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.questions.touching_rings import threaded, touching_pair
@@ -49,6 +55,18 @@ SHAPES: Final = (
     [(0, 0), (2, 0), (2, 2), (0, 2)],
 )
 DENOMINATORS: Final = (3, 7, 9, 13)
+HOOK: Final = [(0, 0), (6, 0), (6, 5)]
+CORNERED: Final = (
+    [(0, 0)],
+    [(0, 0), (3, 1)],
+    [(0, 0), (4, 0), (4, 4), (0, 4)],
+    [(0, 0), (5, 1), (1, 3)],
+    [(0, 0), (9, 0), (9, 2), (2, 2), (2, 9), (0, 9)],
+    HOOK,
+    [(0, 6), (-1, 1), (-6, 0), (-1, -1), (0, -6), (1, -1), (6, 0), (1, 1)],
+)
+"""Shapes with ends, corners and inner corners; the hook is a chain."""
+SPEEDS: Final = (-3, -2, -1, 1, 2, 3)
 CROWDS: Final = ("convex", "row", "convoy", "small_grid")
 
 
@@ -73,6 +91,29 @@ def fractions_scene(random: Random) -> Scene:
         shape = [(x + u, y + v) for u, v in random.choice(SHAPES)]
         bodies.append(Body(f"b{i}", shape, Translation([0, number(2)], [0, number(2)])))
     return Scene(bodies, time=(0, 3))
+
+
+def corner_scene(random: Random) -> Scene:
+    """Return a body of which a vertex comes to a vertex of a wall at t = 8, if nothing else does.
+
+    It comes to an end, to an inner corner, or corner on corner.
+    """
+    (mover, wall), (u, v) = random.choices(CORNERED, k=2), random.choices(SPEEDS, k=2)
+    (x, y), (z, w) = random.choice(mover), random.choice(wall)
+    shape = [(p - x + z - 8 * u, q - y + w - 8 * v) for p, q in mover]
+    moving = Body("body", shape, Translation([0, u], [0, v]), closed=mover is not HOOK)
+    return Scene([moving, Body("wall", wall, closed=wall is not HOOK)], time=(0, 20))
+
+
+def crossing_points(random: Random) -> Scene:
+    """Return points that move on a small grid, where many are in line and level at one time."""
+    cells = random.sample(range(64), random.randint(3, 12))
+    bodies = []
+    for cell in cells:
+        x, y = divmod(cell, 8)
+        motion = Translation([0, random.randint(-1, 1)], [0, random.randint(-1, 1)])
+        bodies.append(Body(f"p{cell}", [(x, y)], motion))
+    return Scene(bodies, time=(0, 8))
 
 
 def _of_scope(random: Random) -> Scene:
@@ -113,6 +154,7 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/threads": threaded,
     "tiny/scaled": scaled_pair,
     "tiny/crossed": crossed_pair,
+    "tiny/crossing points": crossing_points,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},
@@ -126,6 +168,9 @@ SOURCES: Final[dict[str, Source]] = {
     "general/any": general_scene,
     "general/lanes": _lanes,
     "far/relay": relay,
+    "chevrons": chevrons,
+    "pockets": pocket_scene,
+    "tiny/corners": corner_scene,
     "far/convoy": convoy,
     "spinning": spinning_scene,
     "poses": path_scene,

@@ -5,6 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 from fuzz.laws.agreement import as_defined, two_ways_agree, way_is_as_defined
+from fuzz.laws.alive import (
+    changed_run_is_a_new_scene,
+    events_are_the_same_in_any_way,
+    history_is_what_happened,
+    pockets_are_tiled_again,
+)
 from fuzz.laws.choices import choices_are_each_pair_alone, chosen_contacts_are_part_of_all
 from fuzz.laws.confirmed import (
     contacts_are_confirmed,
@@ -16,6 +22,7 @@ from fuzz.laws.confirmed import (
 from fuzz.laws.contacts import bodies_touch_in_their_intervals
 from fuzz.laws.costs import (
     bystander_costs_nothing,
+    change_costs_nothing_elsewhere,
     later_end,
     many_far_bodies,
     one_body_in_pieces,
@@ -38,18 +45,23 @@ from fuzz.laws.drawn import (
 )
 from fuzz.laws.enclosed import bounds_contain_the_truth
 from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_written
+from fuzz.laws.fans import fan_events_lead_from_fan_to_fan
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
 from fuzz.laws.irrational import irrational_tiling_is_that_just_after
 from fuzz.laws.law import Law
-from fuzz.laws.limits import ended_search_is_true
+from fuzz.laws.limits import (
+    ended_run_is_true,
+    ended_search_is_true,
+    searches_look_at_the_clock,
+)
 from fuzz.laws.order import distances_are_ordered_as_their_values
 from fuzz.laws.points import points_are_where_bodies_touch
 from fuzz.laws.proofs import certificates_are_accepted, proofs_are_accepted
 from fuzz.laws.runs import (
     bounces_are_first_contacts,
     living_run_is_static,
-    population_is_a_new_scene,
     restored_run_goes_on,
+    stops_change_nothing,
 )
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
 from fuzz.laws.tilings import (
@@ -249,16 +261,34 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "space/places": Law(
         places_are_as_defined,
-        ("family", "family+awkward", "tiny/touching", "pair"),
+        (
+            "family",
+            "family+awkward",
+            "tiny/fractions",
+            "tiny/crowded",
+            "tiny/fractions+nudged",
+            "points",
+            "rings",
+            "pair",
+        ),
         share=1.5,
         most=40,
     ),
-    "space/paths": Law(paths_are_shortest, ("family", "tiny/touching", "pair"), most=16),
+    "space/paths": Law(
+        paths_are_shortest,
+        ("family", "tiny/fractions", "tiny/crowded", "rings", "tiny/crowded+awkward", "pair"),
+        most=16,
+    ),
     "space/walks": Law(
-        shortened_walks_are_taut, ("family", "tiny/fractions", "family+awkward", "pair"), most=40
+        shortened_walks_are_taut,
+        ("family", "tiny/fractions", "tiny/crowded", "rings", "family+awkward", "pair"),
+        most=40,
     ),
     "space/hulls": Law(
-        relative_hulls_are_taut, ("family", "tiny/crowded", "family+awkward"), share=0.5, most=40
+        relative_hulls_are_taut,
+        ("family", "tiny/crowded", "rings", "family+awkward"),
+        share=0.5,
+        most=40,
     ),
     "simulation/restored": Law(restored_run_goes_on, ("family", "tiny/meeting", "pair"), most=40),
     "simulation/living": Law(living_run_is_static, ("own",)),
@@ -286,7 +316,7 @@ LAWS: Final[dict[str, Law]] = {
     "proof/checked": Law(
         proofs_are_accepted, ("whole", "family", "tiny/pair", "scope", "family+awkward"), share=2
     ),
-    "budget/true": Law(
+    "budget/searches": Law(
         ended_search_is_true,
         (
             "tiny/crowded",
@@ -297,8 +327,13 @@ LAWS: Final[dict[str, Law]] = {
             "far/relay",
             "far/relay+awkward",
         ),
+        share=2,
         most=400,
     ),
+    "budget/runs": Law(
+        ended_run_is_true, ("family", "tiny/crowded", *MOVING, "points", "rings"), most=60
+    ),
+    "budget/looks": Law(searches_look_at_the_clock, ("chevrons",), share=0.5, cases=3),
     "first contact/choices": Law(
         choices_are_each_pair_alone,
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
@@ -321,12 +356,49 @@ LAWS: Final[dict[str, Law]] = {
     "enclosed/errors": Law(stated_errors_are_kept, ("own",), share=0.5),
     "enclosed/curves": Law(curves_are_within_their_errors, ("own",), share=0.5),
     "simulation/bounces": Law(
-        bounces_are_first_contacts, ("pair", "tiny/fractions", "tiny/crowded", "family"), most=24
+        bounces_are_first_contacts,
+        (
+            "pair",
+            "tiny/corners",
+            "tiny/fractions",
+            "tiny/crossing points",
+            "tiny/crowded",
+            "family",
+        ),
+        most=24,
     ),
     "simulation/population": Law(
-        population_is_a_new_scene,
-        ("family", "tiny/crowded", "tiny/fractions", "family+awkward"),
-        most=30,
+        changed_run_is_a_new_scene,
+        (*MOVING, "family", "tiny/crowded", "tiny/fractions", "points", "rings", "family+awkward"),
+        share=3,
+        most=120,
+    ),
+    "simulation/pockets": Law(
+        pockets_are_tiled_again,
+        ("pockets", "pockets", "family/combs", "pockets+awkward", "rings"),
+        most=120,
+    ),
+    "simulation/events": Law(
+        events_are_the_same_in_any_way,
+        (*MOVING, "family", "tiny/crowded", "tiny/fractions", "points", "rings"),
+        most=60,
+    ),
+    "simulation/history": Law(
+        history_is_what_happened,
+        ("tiny/crowded", *MOVING, "family", "tiny/fractions", "rings"),
+        share=0.5,
+        most=60,
+    ),
+    "simulation/fan": Law(
+        fan_events_lead_from_fan_to_fan,
+        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points"),
+        share=0.5,
+        most=40,
+    ),
+    "simulation/stops": Law(
+        stops_change_nothing,
+        ("family", "tiny/fractions", "points", "tiny/crowded", "family+nudged"),
+        most=60,
     ),
     "arrays/queries": Law(
         array_queries_are_first_contacts,
@@ -340,7 +412,6 @@ LAWS: Final[dict[str, Law]] = {
         way_is_as_defined("first contact", "pairs"),
         ("far/convoy", "far/relay", "far/convoy", "far/relay+awkward"),
     ),
-    "budget/looks": Law(as_asked("budgets"), ("own",)),
     "tiling/flips": Law(as_asked("flips"), ("own",)),
     "description/same": Law(descriptions_change_nothing, ("own",)),
     "exchange/scenes": Law(
@@ -426,6 +497,12 @@ LAWS: Final[dict[str, Law]] = {
         cases=96,
     ),
     "cost/filters": Law(most_decisions_are_of_filters, ("general",), share=0.5, cases=48),
+    "cost/changes": Law(
+        change_costs_nothing_elsewhere,
+        ("whole/convex", "whole/stars", "whole/turning", "whole/letters", "whole/frames"),
+        share=0.5,
+        cases=20,
+    ),
     "cost/later end, lazy": Law(
         bystander_costs_nothing(later_end, "--tiling", "lazy"),
         ("whole/convex", "whole/stars", "whole/turning"),

@@ -13,8 +13,7 @@ from exactpt.testing.reference import space as definition
 from exactpt.testing.reference.shapes import is_on_segment
 from exactpt.testing.reference.space import Places, Point
 from fuzz.laws.law import check_equal
-from fuzz.laws.space import a_space
-from fuzz.questions.free_space import some_point
+from fuzz.laws.space import a_space, some_point
 from fuzz.witnesses import Difference
 
 __all__ = ["relative_hulls_are_taut", "shortened_walks_are_taut"]
@@ -31,7 +30,8 @@ def shortened_walks_are_taut(scene: Scene, random: Random) -> str:
 
     So it is the shortest path of its class.
     """
-    space, bodies = a_space(scene, random)
+    asked = a_space(scene, random)
+    space, bodies, _ = asked
     obstacles = homotopy.split_into_parts(bodies)
     inner = {name: homotopy.inner_point(points, random) for name, points in obstacles.items()}
     bends = 0
@@ -49,6 +49,8 @@ def shortened_walks_are_taut(scene: Scene, random: Random) -> str:
             homotopy.crossing_word(points, anchors) for points in (path.points, walk)
         )
         check_equal("class of a walk", found, expected)
+        fresh = asked.anew()
+        check_equal("path of a space not asked before", fresh.path(walk[0], walk[-1]), direct)
         bends += len(path.bends)
     return "no bends" if bends == 0 else "some bends"
 
@@ -78,7 +80,7 @@ def _check_taut(path: ShortestPath, bodies: Places) -> None:
 
 def relative_hulls_are_taut(scene: Scene, random: Random) -> str:
     """A relative hull goes around one body and no other, has none in the way, and is taut."""
-    space, bodies = a_space(scene, random)
+    space, bodies, _ = a_space(scene, random)
     inner = {name: homotopy.inner_point(points, random) for name, points in bodies.items()}
     outcomes = set()
     for body, own in bodies.items():

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from random import Random
-from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
@@ -18,7 +16,6 @@ from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
-from exactpt.simulation.simulation import Simulation
 from exactpt.testing.audits import audit_certificates
 from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery
@@ -27,12 +24,10 @@ from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks, overlays
 from fuzz.questions import by_cgal
 from fuzz.questions.batched import wrong_in_batch
-from fuzz.questions.budgets import wrong_at_the_end
 from fuzz.questions.convoys import wrong_in_convoy
 from fuzz.questions.curves import wrong_along
-from fuzz.questions.free_space import wrong_path, wrong_place
 from fuzz.questions.in_arrays import wrong_in_arrays
-from fuzz.questions.scenes import distant_scene, meeting_scene
+from fuzz.questions.scenes import distant_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, path_scene, spinning_scene
 from fuzz.questions.stated import stated_case, wrong_after_moves, wrong_at_the_start
@@ -40,10 +35,7 @@ from fuzz.questions.touching_rings import touching_pair, wrong_validity
 from fuzz.questions.touching_rings import wrong_answer as wrong_answer_of_touching
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
-from fuzz.soak import Soak
 
-LIVING: Final = ("greedy", "lazy", "mixed")
-ACTIONS: Final = 40
 HOSTILE: Final = 50
 FLIPPED: Final = ("linear_points", "ballistic_points", "turning_points")
 FLIPS: Final = 30
@@ -136,33 +128,6 @@ def _touching_rings(random: Random) -> Checked:
     return Checked(scene, *wrong_answer_of_touching(random, scene))
 
 
-def _restored(random: Random) -> Checked:
-    """A run that has met a contact, and goes on unchanged, is restored as it was saved."""
-    scene = meeting_scene(random)
-    tiling = random.choice(LIVING)
-    simulation = Simulation(scene, tiling=tiling)
-    contacts: list[object] = []
-    for _ in simulation.run(on_contact=lambda _, contact: contacts.append(contact)):
-        pass
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "run.json"
-        simulation.save(path)
-        same = Simulation.restore(path).to_json() == simulation.to_json()
-    kind = f"{tiling}, {len(contacts)} contacts"
-    return Checked(scene, kind, None if same else f"{tiling}: it has another state")
-
-
-def _runs(random: Random) -> Checked:
-    """A living run in which plans, bodies, copies and saves come and go, see `fuzz.soak`."""
-    soak = Soak(random.getrandbits(32), random.choice(LIVING))
-    kind = f"{soak.tiling}, {ACTIONS} actions"
-    try:
-        soak.act(ACTIONS)
-    except AuditError as error:
-        return Checked(soak.simulation.scene, kind, f"{soak.tiling}, seed {soak.seed}: {error}")
-    return Checked(soak.simulation.scene, kind, None)
-
-
 def _filters(random: Random) -> Checked:
     """Float filters near the limits of their bounds, and polynomials at the ends of these."""
     sure, at = 0, filter_attacks.hostile(random, 2)
@@ -234,38 +199,18 @@ def _arrays(random: Random) -> Checked:
     return Checked(*wrong_in_arrays(random))
 
 
-def _places(random: Random) -> Checked:
-    """Places, rays and free segments."""
-    return Checked(*wrong_place(random))
-
-
-def _paths(random: Random) -> Checked:
-    """Shortest paths, from both ends."""
-    return Checked(*wrong_path(random))
-
-
-def _budgets(random: Random) -> Checked:
-    """Searches whose time is over: they end, and what they have reached is true."""
-    return Checked(*wrong_at_the_end(random))
-
-
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "small-scope": _scope,
     "flips": _flips,
     "overlay": _overlay,
     "filters": _filters,
-    "restored": _restored,
     "convoy": _convoy,
-    "places": _places,
-    "paths": _paths,
-    "budgets": _budgets,
     "batch": _batch,
     "arrays": _arrays,
     "touching-rings": _touching_rings,
     "spin": _spin,
     "cgal": _cgal,
     "space": _space,
-    "runs": _runs,
     "path": _path,
     "stated": _stated,
     "curves": _curves,

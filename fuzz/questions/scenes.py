@@ -1,17 +1,25 @@
-"""Scenes of two bodies whose distance has grazes, ties, and equal values for ever."""
+"""Scenes of a few bodies whose distance has grazes, ties, and equal values for ever; crowds."""
 
 from __future__ import annotations
 
 from random import Random
+from typing import Final
 
 from exactpt import Body, Pieces, Rigid, Scene, Translation
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.motions import Motion
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.rings import parts_of
 
-__all__ = ["crowded_scene", "distant_scene", "meeting_scene"]
+__all__ = ["chevrons", "crowded_scene", "distant_scene", "meeting_scene", "relay"]
 
 Shape = list[tuple[int, int]]
+
+CHEVRONS: Final = 72
+"""Number of bodies of which no box, however it is turned, is apart from that of another one."""
+
+
+TIMES: Final = (QQ(1), QQ(1, 3), QQ(3, 7), QQ(5, 9), QQ(10, 13), QQ(3, 2))
 
 
 def distant_scene(random: Random) -> Scene:
@@ -90,3 +98,36 @@ def _along_axis(random: Random) -> Motion:
         Pieces([(at, Translation([0, u])), (None, Translation([2 * u * at, -u]))]),
     ]
     return random.choice(motions)
+
+
+def chevrons(random: Random) -> Scene:
+    """Return nested angles that move almost alike and never touch: all pairs must be compared."""
+    bodies = []
+    for k in range(CHEVRONS):
+        motion = Translation([0, 1 + QQ(k, 1024)], [0, QQ(random.randint(-3, 3), 1024)])
+        bodies.append(Body(f"b{k}", [(k + 40, 40), (k, 0), (k + 40, -40)], motion, closed=False))
+    return Scene(bodies, (0, 1))
+
+
+def relay(random: Random) -> Scene:
+    """Return walls and boxes that all turn back at one time, when some of them touch their walls.
+
+    That time is the contact, and the start of pieces whose boxes already meet. So it is known to
+    the last double of which pairs are compared before, and of which after it.
+    """
+    time = random.choice(TIMES)
+    bodies: list[Body] = []
+    for k in range(random.randint(6, 9)):
+        y = 10 * k
+        bodies.append(Body(f"wall{k}", [(0, y), (1, y + 2), (0, y + 4), (2, y + 4), (2, y)]))
+        u = random.choice([QQ(1), QQ(2), QQ(1, 3), QQ(5, 7)])
+        v = random.choice([QQ(0), QQ(0), QQ(1, 9)])
+        gap = random.choice([QQ(0), QQ(1, 100), QQ(1, 7)])  # at that time, from the tip of the box
+        tip = (-gap, y + 1) if random.random() < 0.5 else (1 - gap, y + 2)
+        x0, y0 = tip[0] - u * time, tip[1] - v * time
+        there = Translation([0, u], [0, v])
+        back = Translation([2 * u * time, -u], [2 * v * time, -v])
+        shape = [(x0, y0), (x0 - 1, y0 + QQ(1, 8)), (x0 - 1, y0 - QQ(1, 8))]
+        bodies.append(Body(f"box{k}", shape, Pieces([(time, there), (None, back)])))
+    random.shuffle(bodies)
+    return Scene(bodies, (0, 2 * time))

@@ -29,7 +29,7 @@ def run(*words):
 
 @pytest.mark.parametrize("question", DEFINED)
 def test_no_difference(question, tmp_path):
-    slow = ("spin", "runs", "path", "stated", "touching-rings")
+    slow = ("spin", "path", "stated", "touching-rings")
     cases = "12" if question in slow else "60"
     result = run("--question", question, "--cases", cases, "--keep", str(tmp_path / "found"))
 

@@ -1,9 +1,10 @@
-"""Queries in scenes with holes, by hand; against brute force see `test_space`."""
+"""Queries in scenes with holes, by hand; the laws `space/*` have more."""
 
 import pytest
 
-from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation, UnreachableError
-from exactpt.tiling.start import TILINGS, start_tiling
+from exactpt import Body, InputError, Scene, Simulation, Translation, UnreachableError
+
+TILINGS = ("greedy", "mixed", "lazy")
 
 FRAME = [(0, 0), (12, 0), (12, 12), (0, 12)]
 HOLE = [(1, 1), (11, 1), (11, 11), (1, 11)]
@@ -22,7 +23,7 @@ def scene(*, deforms=False):
 @pytest.fixture(params=TILINGS)
 def space(request):
     made = scene(deforms=request.param == "lazy")
-    return FreeSpace(start_tiling(made, request.param, made.exact_start), made.exact_start)
+    return Simulation(made, tiling=request.param).space()
 
 
 def test_places(space):
@@ -89,7 +90,7 @@ def test_the_loop_around_a_body_with_holes_leads_around_its_outline():
     bodies = [Body("frame", FRAME, holes=[HOLE]), Body("in", [(5, 5)]), Body("out", [(6, 20)])]
     made = Scene(bodies, (0, 1))
     for tiling in TILINGS:
-        space = FreeSpace(start_tiling(made, tiling, made.exact_start), made.exact_start)
+        space = Simulation(made, tiling=tiling).space()
         assert space.relative_hull("frame") == [("frame", v) for v in range(4)]
         assert space.relative_hull("in") == [("in", 0)]
 

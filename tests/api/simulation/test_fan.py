@@ -1,4 +1,7 @@
-"""The fan triangulation of moving points (paper, section 3.4), as users reach it."""
+"""The fan triangulation of moving points (paper, section 3.4), by hand.
+
+That its events lead from each triangulation to the next is the law `simulation/fan`.
+"""
 
 import json
 import pickle
@@ -8,10 +11,9 @@ import pytest
 from commands import code_of, run
 from passing_points import pair, passing
 
-from exactpt import Body, InputError, Scene, Simulation, Translation
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt import AlgebraicNumber, Body, InputError, Scene, Simulation, Translation
 from exactpt.simulation.store import sealed
-from exactpt.testing.scenes import POINTS, generate
+from exactpt.testing.scenes import generate
 
 
 def words(text):
@@ -75,42 +77,6 @@ def test_fan_of_a_passing_point_changes_as_derived_by_hand():
     ]
     assert simulation.stats["fan_changes"] == 4 + 2
     assert simulation.stats["events"] == 2
-
-
-@pytest.mark.parametrize("family", sorted(POINTS))
-def test_events_of_the_fan_lead_from_each_triangulation_to_the_next(family):
-    """Between two events the snapshot is that of the tiling itself: its faces give the fan."""
-    for seed in range(2):
-        scene = generate(family, seed)
-        simulation = Simulation(scene, fan=True)
-        if simulation.kinetic is None:
-            continue
-        edges = triangulation(simulation.space(first_gap(simulation)).snapshot)
-        while (events := simulation.step()) and simulation.contact is None:
-            edges = replay(edges, events)
-            at = first_gap(simulation)
-            if at is None:
-                continue
-            assert triangulation(simulation.space(at).snapshot) == edges
-
-
-def first_gap(simulation):
-    """A rational time between now and the next event; None if there is none."""
-    following = simulation.kinetic.next_number()
-    end = AlgebraicNumber(simulation.scene.end)
-    limit = end if following is None or following > end else following
-    return rational_between(simulation.now, limit) if simulation.now < limit else None
-
-
-@pytest.mark.parametrize("family", sorted(POINTS))
-def test_other_events_are_those_of_a_run_without_a_fan(family):
-    scene = generate(family, 1)
-    with_fan, without = Simulation(scene, fan=True), Simulation(scene)
-
-    lines = [json.dumps(e.to_json()) for e in with_fan.run() if e.kind != "fan"]
-
-    assert lines == [json.dumps(e.to_json()) for e in without.run()]
-    assert {k: v for k, v in with_fan.stats.items() if k != "fan_changes"} == without.stats
 
 
 @pytest.mark.parametrize("number", [0, 1, 7, 20])

@@ -1,10 +1,14 @@
-"""The past of a run: one exact scene, and what happened to its bodies."""
+"""The past of a run: one exact scene, and what happened to its bodies, by hand.
+
+That bodies were where the history has them is the law `simulation/history`.
+"""
+
+from fractions import Fraction
 
 import pytest
 
 import exactpt
 from exactpt import Body, Bounce, InputError, Pieces, Scene, Simulation, Translation
-from exactpt.kernel.numbers import QQ
 
 BALL = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2], [0, "1/3"]))
 WALLS = [Body("left", [(-1, -9), (-1, 9)]), Body("right", [(6, -9), (6, 9)])]
@@ -47,7 +51,7 @@ def test_plans_in_pieces_are_cut_to_their_time():
     body = simulation.history().scene().body("ball")
 
     assert body.motion.until == (1, 2, 3)
-    for t in (QQ(1, 2), QQ(3, 2), QQ(5, 2), QQ(7, 2)):
+    for t in (Fraction(1, 2), Fraction(3, 2), Fraction(5, 2), Fraction(7, 2)):
         assert body.at(t)[0] == ((2 * t, t / 3) if t < 2 else (6 - t, t / 3) if t < 3 else (3, 1))
 
 

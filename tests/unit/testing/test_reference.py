@@ -25,7 +25,7 @@ from exactpt.testing.reference import (
 )
 from exactpt.testing.reference.times import tracks_after
 from exactpt.testing.scenes import FAMILIES, generate
-from fuzz.questions.free_space import some_point
+from fuzz.laws.space import some_point
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene
 from fuzz.questions.tiny import pair_scene, touching_scene

@@ -1,4 +1,4 @@
-"""Counts belong to a run; one simulation in several threads."""
+"""Counts belong to a run; a simulation is used by one thread at a time, others are refused."""
 
 import sys
 import threading
@@ -9,46 +9,39 @@ import pytest
 
 import exactpt
 from exactpt import Body, InputError, Scene, Simulation, Translation
-from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.testing.scenes import generate
 
 COUNTS = ("exact", "filtered", "reasons")
 SCENES = [generate("convex", 3), generate("small_grid", 3)]
+IN_USE = "the simulation is in use by another thread: wait for it, or use a copy()"
+CANNOT_GO_ON = "the run was interrupted in the middle of an event: it cannot go on"
 
 
-@pytest.fixture
-def threads_take_turns_often():
+@pytest.fixture(autouse=True)
+def _threads_take_turns_often():
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     yield
     sys.setswitchinterval(interval)
 
 
-def counts(stats):
-    return {key: stats[key] for key in COUNTS}
+def counts(simulation):
+    return {key: simulation.stats[key] for key in COUNTS}
 
 
-def decisions(stats):
-    return stats["exact"] + stats["filtered"]
+def decisions(simulation):
+    return simulation.stats["exact"] + simulation.stats["filtered"]
 
 
 def alone(scene):
     simulation = Simulation(scene)
     list(simulation.run())
-    return counts(simulation.stats)
+    return counts(simulation)
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
-def test_bug_another_run_afterwards_changes_no_counts():
-    simulation = Simulation(SCENES[0])
-    list(simulation.run())
-    before = simulation.stats
-
-    assert alone(SCENES[1])["exact"] > 0
-    assert simulation.stats == before
+# Counts
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
 def test_bug_two_runs_event_by_event_count_for_themselves():
     expected = [alone(scene) for scene in SCENES]
     simulations = [Simulation(scene) for scene in SCENES]
@@ -57,14 +50,12 @@ def test_bug_two_runs_event_by_event_count_for_themselves():
         for i, simulation in enumerate(simulations):
             going[i] = going[i] and bool(simulation.step())
 
-    for simulation, wanted in zip(simulations, expected, strict=True):
-        assert counts(simulation.stats) == wanted
+    assert list(map(counts, simulations)) == expected
     assert expected[0] != expected[1]
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
-def test_bug_two_runs_in_two_threads_count_for_themselves():
-    scenes = [SCENES[0], SCENES[1], SCENES[0], SCENES[1]]
+def test_bug_runs_in_threads_count_for_themselves():
+    scenes = SCENES * 2
     expected = [alone(scene) for scene in scenes]
     barrier = Barrier(len(scenes))
 
@@ -76,34 +67,26 @@ def test_bug_two_runs_in_two_threads_count_for_themselves():
         assert list(pool.map(at_once, scenes)) == expected
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
-def test_bug_runs_in_threads_may_share_a_track():
+def test_bug_searches_in_threads_may_share_a_body():
+    """Numbers of its track are kept in several widths, for whoever is the next to need them."""
     body = Body("b", [(0, 0), (3, 1), (1, 2)], Translation([0, 1], [0, "1/3"]))
-    track = body.exact_piece_after(0).tracks[1]
-    packed = {width: track.packed(width) for width in (16, 24, 32, 40)}
+    scenes = [
+        Scene([body, Body("wall", [(10**k, -(10**k)), (10**k, 10**k)])], (0, 10**k))
+        for k in (1, 4, 9, 15)
+    ]
+    expected = [exactpt.first_contact(scene) for scene in scenes]
 
     def ask(_):
-        return all(track.packed(w) == packed[w] for _ in range(5_000) for w in packed)
+        return all(
+            [exactpt.first_contact(scene) for scene in scenes] == expected for _ in range(25)
+        )
 
     with ThreadPoolExecutor(4) as pool:
         assert all(pool.map(ask, range(4)))
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
-def test_bug_a_search_by_pairs_counts_for_itself():
-    search = PairsSearch(SCENES[1])
-    search.run_to_contact()
-    before = search.stats
-
-    assert decisions(alone(SCENES[0])) > 0
-    assert search.stats == before
-    assert decisions(before) > 0
-
-
-@pytest.mark.parametrize("size", [1, 4])
-@pytest.mark.usefixtures("threads_take_turns_often")
+@pytest.mark.parametrize("size", [1, 4], ids=["points", "a chevron among convex bodies"])
 def test_counts_go_on_when_the_tiling_is_built_anew(size):
-    """For one more point, or for a chevron among convex bodies."""
     chevron = [(0, 0), (4, 0), (1, 1), (0, 4)]
     bodies = [
         Body(f"b{i}", [(10 * i + x, i + y) for x, y in chevron[:: 2 if size > 1 else 4]])
@@ -114,33 +97,19 @@ def test_counts_go_on_when_the_tiling_is_built_anew(size):
     list(simulation.run(1))
     for i in range(9):
         simulation.set_motion("b1", exactpt.onward(simulation.body("b1"), 1, (0, i)))
-    before = simulation.stats
+    before, decided = simulation.stats, decisions(simulation)
     simulation.add(Body("new", [(200 + x, y) for x, y in chevron[:size]]))
 
     after = simulation.stats
     assert after["rebuilds"] == before["rebuilds"] + 1
     assert after["exact"] >= before["exact"] > 0
     assert after["filtered"] >= before["filtered"]
-    anew = decisions(Simulation(simulation.scene, tiling=simulation.name).stats)
-    assert decisions(after) > decisions(before) + anew / 2 > anew
+    anew = decisions(Simulation(simulation.scene, tiling=simulation.name))
+    assert decisions(simulation) > decided + anew / 2 > anew
     assert all(after["reasons"][why] >= n for why, n in before["reasons"].items())
 
 
-@pytest.mark.usefixtures("threads_take_turns_often")
-def test_counts_go_on_after_restore(tmp_path):
-    simulation = Simulation(SCENES[1])
-    simulation.step()
-    simulation.save(tmp_path / "s.json")
-    alone(SCENES[0])
-    restored = Simulation.restore(tmp_path / "s.json")
-
-    assert counts(restored.stats) == counts(simulation.stats)
-    list(simulation.run())
-    list(restored.run())
-    assert counts(restored.stats) == counts(simulation.stats)
-
-
-# One simulation, several threads: one at a time, the others are refused in one line
+# One simulation, several threads
 
 BALL = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 1]))
 WALL = Body("wall", [(5, -9), (5, 9)])
@@ -162,7 +131,7 @@ def in_another_thread(call):
     return raised[0] if raised else None
 
 
-def test_another_thread_is_refused_during_a_callback():
+def test_another_thread_is_refused_during_a_response():
     simulation, said = Simulation(Scene([BALL, WALL], time=(0, 20))), {}
     calls = {
         "step": simulation.step,
@@ -182,10 +151,7 @@ def test_another_thread_is_refused_during_a_callback():
     events = list(simulation.run(on_contact=respond))
 
     assert [event.kind for event in events] == ["contact"]
-    assert list(said) == list(calls)
-    assert set(said.values()) == {
-        "the simulation is in use by another thread: wait for it, or use a copy()"
-    }
+    assert said == dict.fromkeys(calls, IN_USE)
 
 
 def test_threads_may_take_turns():
@@ -229,17 +195,39 @@ def test_bug_three_threads_never_change_the_events():
         assert sorted(str(event.to_json()) for event in events) == whole
 
 
+class Interrupted:
+    """A motion of a caller's own, in whose computation something happens."""
+
+    def __init__(self, error):
+        self.error = error
+
+    def track(self, _position):
+        raise self.error
+
+
 @pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
-def test_a_run_interrupted_in_an_event_does_not_go_on(monkeypatch, error):
-    simulation = Simulation(generate("turning", 1), tiling="greedy")
-    simulation.step()
-    mutable = simulation._run.mutable
+def test_run_interrupted_in_a_change_does_not_go_on(error):
+    simulation = Simulation(Scene([BALL, WALL], time=(0, 20)))
+    list(simulation.run(1))
 
-    def interrupt(_plans):
-        raise error
-
-    monkeypatch.setattr(mutable, "set_motions", interrupt)
     with pytest.raises(error):
-        simulation.set_motions({})
-    with pytest.raises(InputError, match="interrupted in the middle of an event"):
-        simulation.step()
+        simulation.set_motion("ball", Interrupted(error()))
+
+    for door in (simulation.step, simulation.run_to_contact, simulation.to_json):
+        with pytest.raises(InputError, match=CANNOT_GO_ON):
+            door()
+
+
+def test_run_interrupted_in_a_response_goes_on_or_says_that_it_cannot():
+    """Nothing was changed in the response, but the contact at t = 4 is not passed."""
+    simulation = Simulation(Scene([BALL, WALL], time=(0, 20)))
+
+    def interrupted(_simulation, _contact):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        list(simulation.run(on_contact=interrupted))
+
+    assert simulation.now < 4
+    assert simulation.reached() < 4
+    assert simulation.run_to_contact().time == 4

@@ -1,27 +1,31 @@
-"""Bounces with restitution and masses: momentum and energy of two bodies on a line."""
+"""Bounces with restitution and masses, by hand: momentum and energy of two bodies on a line.
+
+That contacts of a run that bounces are those by definition is the law `simulation/bounces`.
+"""
 
 import pickle
+import sys
 from fractions import Fraction
-from random import Random
+from pathlib import Path
 
 import pytest
 from folding import every
 
 from exactpt import (
+    Affine,
     Body,
     Bounce,
     InputError,
+    Pieces,
     Rigid,
     Scene,
     Simulation,
     Translation,
     Velocity,
-    first_contact,
+    onward,
 )
-from exactpt.kernel.numbers import QQ
-from exactpt.simulation.responses import _velocity_beside
-from exactpt.testing import reference
-from exactpt.testing.agreement import disagreement
+
+sys.path.append(str(Path(__file__).parents[3] / "examples"))
 
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
 EXACT = 2.0**-19  # velocities are rounded to the grid of 2^-20
@@ -126,50 +130,6 @@ def test_a_mass_of_no_body_is_refused():
         velocities_after(Bounce(masses={"lfet": 2}))
 
 
-SHAPES = {
-    "point": [(0, 0)],
-    "segment": [(0, 0), (3, 1)],
-    "square": [(0, 0), (4, 0), (4, 4), (0, 4)],
-    "triangle": [(0, 0), (5, 1), (1, 3)],
-    "L": [(0, 0), (9, 0), (9, 2), (2, 2), (2, 9), (0, 9)],
-    "hook": [(0, 0), (6, 0), (6, 5)],
-    "star": [(0, 6), (-1, 1), (-6, 0), (-1, -1), (0, -6), (1, -1), (6, 0), (1, 1)],
-}
-
-
-def vertex_on_vertex(random):
-    """A body of which a vertex comes to a vertex of a wall at t = 8; None if it comes elsewhere."""
-    (a, p), (b, q) = (random.choice(list(SHAPES.items())) for _ in range(2))
-    u, v = (random.choice((-3, -2, -1, 1, 2, 3)) for _ in range(2))
-    (x, y), (z, w) = random.choice(p), random.choice(q)
-    path = [(px - x + z - 8 * u, py - y + w - 8 * v) for px, py in p]
-    scene = Scene(
-        [
-            Body("body", path, Translation([0, u], [0, v]), closed=a != "hook"),
-            Body("wall", q, closed=b != "hook"),
-        ],
-        time=(0, 20),
-    )
-    contact = first_contact(scene)
-    alone = contact and [pair.kind for pair in contact.pairs] == ["vertex-vertex"]
-    return scene if alone and contact.time == 8 else None
-
-
-@pytest.mark.long
-def test_a_vertex_that_meets_a_vertex_goes_on():
-    """At the end of a wall, in an inner corner, corner on corner."""
-    random = Random(1)
-    scenes = [scene for _ in range(300) if (scene := vertex_on_vertex(random))]
-
-    assert len(scenes) > 60
-    for scene in scenes:
-        simulation = Simulation(scene)
-        for _ in simulation.run(on_contact=Bounce(fixed=["wall"])):
-            pass
-        assert simulation.contact is None
-        assert simulation.now == 20
-
-
 def test_a_ball_comes_back_from_a_corner_of_a_frame():
     wide = [(-25, -25), (25, -25), (25, 25), (-25, 25)]
     narrow = [(-21, -21), (21, -21), (21, 21), (-21, 21)]
@@ -184,54 +144,53 @@ def test_a_ball_comes_back_from_a_corner_of_a_frame():
     assert (motion.x.coefficients[1], motion.y.coefficients[1]) == (-3, -3)
 
 
-@pytest.mark.parametrize("edge, at", [(3, (-25, 10)), (7, (-21, -20)), (1, (25, 7))])
-def test_bug_the_last_edge_of_a_ring_ends_at_its_first_vertex(edge, at):
-    """Turning at one radian a second, the point (x, y) of an edge has the velocity (-y, x)."""
-    wide = [(-25, -25), (25, -25), (25, 25), (-25, 25)]
-    narrow = [(-21, -21), (21, -21), (21, 21), (-21, 21)]
-    frame = Body("frame", wide, Rigid([0, "1/2"]), holes=[narrow])
-    ball = Body("ball", [at, (0, 0)])
+@pytest.mark.parametrize(
+    "at, velocity, after",
+    [((-40, 15), (3, 0), (-5, 0)), ((-20, 10), (-3, 0), (1, 0))],
+    ids=["outline", "hole"],
+)
+def test_bug_the_last_edge_of_a_ring_ends_at_its_first_vertex(at, velocity, after):
+    """The frame grows: each coordinate 25 by 1 a second, each 21 of its hole too.
 
-    assert _velocity_beside(frame, edge, (ball, 0), QQ(0)) == (-at[1], at[0])
+    So the last edges of the rings, at x = -25 and x = -21, move to the left with speed 1 in each of
+    their points. A ball with velocity u on the axis leaves with -2 - u. The hole's last edge taken
+    to end at another vertex would have another velocity beside the ball.
+    """
+    rings = [
+        [{"x": [x * size, x], "y": [y * size, y]} for x, y in [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
+        for size in (25, 21)
+    ]
+    frame = Body("frame", rings[0], holes=[rings[1]])
+    ball = Body("ball", [at], Velocity(*velocity))
+    simulation = Simulation(Scene([frame, ball], (0, 9)))
+    events = simulation.run(on_contact=Bounce(fixed=["frame"]))
 
-
-WALLS = [
-    Body("floor", [(-1, -1), (9, -1)]),
-    Body("ceiling", [(-1, 9), (9, 9)]),
-    Body("left wall", [(-2, 0), (-2, 8)]),
-    Body("right wall", [(10, 0), (10, 8)]),
-]
-
-
-def room(rng):
-    """Return four bodies in a room of four walls with open corners."""
-    bodies = []
-    for i, (x, y) in enumerate([(0, 0), (5, 0), (0, 5), (5, 5)]):
-        shape = rng.choice([[(0, 0)], [(0, 0), (2, 1)], BOX, [(0, 0), (2, 0), (0, 2)]])
-        velocity = Velocity(rng.randint(-3, 3), rng.randint(-3, 3))
-        bodies.append(Body(f"b{i}", [(x + u, y + v) for u, v in shape], velocity))
-    return Scene([*WALLS, *bodies], (0, 3))
+    assert next(events).kind == "contact"
+    now = simulation.now.low
+    found = simulation.body("ball").velocity_at(now)[0]
+    assert found == pytest.approx(after, abs=EXACT)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("tiling", ["lazy", "greedy"])
-def test_each_contact_of_a_run_is_that_of_all_pairs(tiling):
-    """Of the scene that goes on from the last response."""
-    contacts = 0
-    for seed in range(6):
-        simulation = Simulation(room(Random(seed)), tiling=tiling)
-        bounce, ahead = Bounce(fixed=[wall.name for wall in WALLS]), [simulation.scene]
+@pytest.mark.parametrize("tiling", ["greedy", "lazy"])
+def test_numbers_do_not_grow_from_bounce_to_bounce(tiling):
+    from bouncing_box import WALLS, box, digits
 
-        def respond(run, contact, ahead=ahead, bounce=bounce):
-            expected = reference.first_contact(ahead.pop())
-            assert disagreement(expected, contact) is None
-            bounce(run, contact)
-            ahead.append(Scene(run.scene.bodies, (run.now, run.scene.end)))
+    simulation = Simulation(box(8, 0, 1, 10**6), tiling=tiling)
+    bounce, sizes = Bounce(WALLS, fastest=16), []
 
-        list(simulation.run(on_contact=respond))
-        contacts += simulation.contacts
-        assert reference.first_contact(ahead.pop()) is None
-    assert contacts > 30
+    def respond(run, contact):
+        bounce(run, contact)
+        sizes.append(digits(run.scene, run.now.low))
+
+    time = 0
+    while simulation.contacts < 100:
+        time += 1
+        list(simulation.run(time, on_contact=respond))
+        assert simulation.contact is None
+    quarter = len(sizes) // 4
+
+    assert max(sizes[-quarter:]) <= max(sizes[quarter : 2 * quarter]) + 16
 
 
 def test_velocities_are_exact_also_of_vertices_that_turn():
@@ -298,3 +257,59 @@ def test_energy_at_an_irrational_time_needs_constant_velocities():
     with pytest.raises(InputError, match=r"'falling': its velocity at the irrational time 1\.414"):
         bounce.kinetic_energy(simulation)
     assert Bounce().momentum(Simulation(linear)) == (2, 9)
+
+
+@pytest.mark.parametrize("exponent", [-200, 200])
+def test_bounces_at_sizes_whose_squares_are_no_doubles(exponent):
+    size = Fraction(10) ** exponent
+    shape = [(0, size), (size, 2 * size), (-size, 2 * size)]
+    ball = Body("ball", shape, Translation(0, [0, -size]))
+    floor = Body("floor", [(-5 * size, 0), (5 * size, 0)])
+    simulation = Simulation(Scene([ball, floor], (0, 4)))
+    bounce = Bounce(fixed=["floor"], slowest=size / 16, grid=size / 2**20)
+
+    events = list(simulation.run(on_contact=bounce))
+
+    assert [event.kind for event in events] == ["contact", "motion"]
+    assert simulation.body("ball").motion.y.derivative()(2) > 0
+
+
+def test_push_on_an_edge_far_away_is_where_it_touches():
+    """A board that tilts, at 10^20, where doubles are 16384 apart: hit at three quarters.
+
+    That is at t = 12/5, the edge as (4, -12/5), where its point has the velocity (0, -3/4).
+    """
+    far = 10**20
+    board = Body("board", [(far, 0), {"x": [far + 4], "y": [0, -1]}])
+    ball = Body("ball", [(far + 3, 3), (far + 4, 4), (far + 2, 4)], Translation(0, [0, -2]))
+    simulation = Simulation(Scene([board, ball], (0, 9)))
+
+    list(simulation.run("5/2", on_contact=Bounce(fixed=["board"])))
+
+    assert simulation.contacts == 1
+    vx, vy = map(float, simulation.body("ball").velocity_at(3)[0])
+    length = (4**2 + 2.4**2) ** 0.5
+    nx, ny = 2.4 / length, 4 / length
+    assert nx * vx + ny * (vy + 0.75) == pytest.approx(ny * 1.25, rel=1e-4)
+
+
+@pytest.mark.parametrize("time", ["1/2", 2, "5/2", 7])
+@pytest.mark.parametrize(
+    "motion",
+    [
+        Translation([1, 2, 3], [0, 1]),
+        Rigid([0, 1], pivot=(1, 1), x=[0, 1]),
+        Affine([[[1, 1], [0]], [[0], [1, 1]]], x=[0, 5]),
+        Pieces([(2, Translation([0, 1])), (3, Translation([2])), (None, Translation([-1, 1]))]),
+    ],
+    ids=["translation", "rigid", "affine", "pieces"],
+)
+def test_onward_goes_on_from_where_the_body_is(motion, time):
+    """With a velocity on the grid of 1/4: 1/3 becomes 1/4, of which it is 1/12 away."""
+    body = Body("b", [(0, 0), (2, 0), (0, 1)], motion)
+
+    new = body.with_motion(onward(body, time, ("1/3", -2), grid="1/4"))
+
+    assert new.at(time) == body.at(time)
+    if not isinstance(motion, (Rigid, Affine)):
+        assert new.velocity_at(time) == [(Fraction(1, 4), -2)] * 3

@@ -1,0 +1,84 @@
+"""Laws about the fan triangulation of points, which is maintained beside the incremental tiling."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from random import Random
+from typing import TypeAlias
+
+from exactpt import RunEvent, Scene, Simulation
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.numbers import fraction
+from exactpt.pseudotriangulation.snapshot import Snapshot
+from fuzz.laws.law import check_equal, refuse_unless
+from fuzz.laws.runs import restored
+from fuzz.witnesses import Difference, tilings_of
+
+__all__ = ["fan_events_lead_from_fan_to_fan"]
+
+Edges: TypeAlias = set[frozenset[str]]
+"""Edges by the names of their ends."""
+
+
+def fan_events_lead_from_fan_to_fan(scene: Scene, random: Random) -> str:
+    """The events of a fan change it as its tiling does; all others are those without a fan.
+
+    The run is saved and read again on the way.
+    """
+    refuse_unless(scene.bodies and "incremental" in tilings_of(scene))
+    without = Simulation(scene, tiling="incremental")
+    refuse_unless(without.contact is None)
+    expected = list(without.run())
+    times = [AlgebraicNumber(scene.start), *sorted({event.time for event in expected})]
+    if without.contact is None:
+        times.append(AlgebraicNumber(scene.end))
+
+    run = Simulation(scene, tiling="incremental", fan=True)
+    saved_at = random.randrange(len(times))
+    edges: Edges | None = None
+    events: list[RunEvent] = []
+    for number, time in enumerate(_between(times)):
+        if number == saved_at:
+            run = restored(run)
+        new = list(run.run(until=time))
+        after = _triangulation(run.tiling)
+        if edges is not None:  # at the start itself fewer edges may be there than just after it
+            check_equal(f"fan at t = {time}", _changed(edges, new), after)
+        edges = after
+        events += new
+    events += run.run()
+    others = [event.to_json() for event in events if event.kind != "fan"]
+    check_equal("events of other kinds", others, [event.to_json() for event in expected])
+    changes = sum(len(e.removed) + len(e.added) for e in events if e.kind == "fan")
+    check_equal("number of changes", run.stats["fan_changes"], changes)
+    return "changes" if changes else "no changes"
+
+
+def _between(times: list[AlgebraicNumber]) -> list[Fraction]:
+    """Return a rational time between any two consecutive ones."""
+    return [fraction(rational_between(a, b)) for a, b in pairwise(times) if a < b]
+
+
+def _triangulation(snapshot: Snapshot) -> Edges:
+    """Return the edges of a tiling and of its fan."""
+    names = [f"{node.body}:{node.vertex}" for node in snapshot.nodes]
+    ends = [*((edge.u, edge.v) for edge in snapshot.edges), *snapshot.fan]
+    return {frozenset((names[u], names[v])) for u, v in ends}
+
+
+def _changed(edges: Edges, events: list[RunEvent]) -> Edges:
+    """Return the edges after some events.
+
+    Raises:
+        Difference: if an event removes an edge that is not there, or adds one that is.
+    """
+    for event in events:
+        if event.kind == "fan":
+            removed, added = (
+                {frozenset(pair) for pair in of} for of in (event.removed, event.added)
+            )
+            if not removed <= edges or edges & added:
+                raise Difference("event of the fan", f"{event}")
+            edges = edges - removed | added
+    return edges
