@@ -149,7 +149,7 @@ def history_is_what_happened(scene: Scene, random: Random) -> str:
 
 
 def _check_lives(
-    history: History, bodies: tuple[Body, ...], since: Fraction, until: Fraction
+    history: History, bodies: Sequence[Body], since: Fraction, until: Fraction
 ) -> None:
     """Check which bodies there were in an interval without changes, and where."""
     lives = {

@@ -332,7 +332,8 @@ def distances_are_confirmed(scene: Scene, random: Random) -> str:
 
 def spaces_are_confirmed(scene: Scene, random: Random) -> str:
     """By CGAL's arrangements and hulls: faces, hulls, owners of points, and free segments."""
-    space, points = a_space(scene, random)
+    asked = a_space(scene, random)
+    space, points = asked.space, asked.bodies
     tile = space.snapshot.to_json()
     shapes = BodyShape.of_scene(scene)
     verdict = witness().check_tiling(tile, shapes, deep=True)

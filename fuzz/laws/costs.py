@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -167,7 +168,7 @@ def _surrounded(scene: Scene, count: int, distance: int) -> Scene:
     size, _ = _size_and_far(scene)
     radius = distance * size
     side = radius / (4 * count)
-    bodies = []
+    bodies: list[Body] = []
     for k in range(count):
         t = QQ(2 * k + 1 - count, count)
         x, y = radius * (1 - t * t) / (1 + t * t), radius * 2 * t / (1 + t * t)
@@ -189,11 +190,12 @@ def _certificates_of_changes(
     for name in names:
         body = run.body(name)
         moved = body.with_motion(exactpt.onward(body, scene.start, velocity))
-        for kind, change in (
-            ("new motion", lambda: run.set_motions({name: moved})),  # noqa: B023 - called at once
-            ("removed", lambda: run.remove(name)),  # noqa: B023
-            ("added", lambda: run.add(body)),  # noqa: B023
-        ):
+        changes: tuple[tuple[str, Callable[[], object]], ...] = (
+            ("new motion", partial(run.set_motions, {name: moved})),
+            ("removed", partial(run.remove, name)),
+            ("added", partial(run.add, body)),
+        )
+        for kind, change in changes:
             change()
             counts[kind] += _touched(run) - touched
             touched = _touched(run)

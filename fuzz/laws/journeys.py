@@ -6,7 +6,7 @@ twice: once as it is, and once in another way that must not matter.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import islice
@@ -49,7 +49,7 @@ class Moment(NamedTuple):
     """
 
     time: Fraction
-    bodies: tuple[Body, ...]
+    bodies: Sequence[Body]
 
 
 class Journey:
@@ -118,6 +118,7 @@ class Journey:
         """Let bodies bounce, stop or go anywhere."""
         if run.contacts > RESPONSES:
             return
+        kinds: list[Callable[[Simulation, Contact], None]]
         kinds = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
         if not self._keeps_shapes:
             kinds.append(exactpt.stop)
