@@ -223,7 +223,7 @@ class PairsSearch:
         boxes = self._swept.during(now, later)
         vs, es = [], []
         for v, e in self._swept.meeting(boxes, self._swept.around(boxes)):
-            may = self._may_touch(v, e, boxes)
+            may = self._may_touch(v, e, boxes) & ~self._swept.move_together(v, e, later)
             vs.append(v[may])
             es.append(e[may])
         if self._approaches is not None:
@@ -235,22 +235,20 @@ class PairsSearch:
     def _may_touch(self, v: Indices, e: Indices, boxes: Floats) -> Flags:
         """For each pair, whether the vertex can start to touch the edge.
 
-        It cannot if both have the same motion, belong to one rigid body, or are ignored. A vertex
+        It cannot if both belong to one rigid body, or are ignored. A vertex
         is not paired with its own edges, except with the edge that starts at it if the boxes of
         that edge's ends coincide: the edge may shrink to a point.
         """
         swept = self._swept
         a, b = swept.ends[e, 0], swept.ends[e, 1]
         i, j = swept.body[v], swept.body[a]
-        motion = swept.motion[v]
-        together = (motion >= 0) & (motion == swept.motion[a]) & (motion == swept.motion[b])
         rigid = (i == j) & ~swept.deforms[i]
         p, q = boxes[a], boxes[b]
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
         ignored = self._selection.ignored(i, j) | ((i == j) & self._ignores_self[i])
         rounded = self._has_radius[i] | self._has_radius[j]
-        may: Flags = ~(together | rigid | ignored | lasts | rounded)
+        may: Flags = ~(rigid | ignored | lasts | rounded)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:
