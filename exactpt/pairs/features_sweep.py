@@ -150,7 +150,8 @@ class PairsSearch:
         touches, initial_pairs = initial_touches(scene, self._near_at_start())
         if initial_pairs:
             return contact_of(scene, AlgebraicNumber(scene.exact_start), touches, initial_pairs)
-        return self._run() if scene.bodies else None
+        found = self.first_after_start() if scene.bodies else None
+        return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _near_at_start(self) -> list[tuple[int, int]] | None:
         """Return the pairs that count and may touch at the start; None if every pair counts."""
@@ -171,8 +172,8 @@ class PairsSearch:
         self._counters = swept.vertices.counters
         return swept
 
-    def _run(self) -> Contact | None:
-        """Search slab by slab."""
+    def first_after_start(self) -> LinearContact | None:
+        """Return the first contact of bodies that are disjoint at the start, slab by slab."""
         self._passed = self._scene.exact_start
         approaches = self._approaches
         for now, later, near in self._swept.slabs(self._near):
@@ -186,8 +187,8 @@ class PairsSearch:
             ):
                 if found is not None:
                     best.add(*found)
-            if best.number is not None:
-                return contact_of(self._scene, best.number, best.found)
+            if best.time is not None:
+                return LinearContact(best.time, best.found)
             self._passed = later
         return None
 
