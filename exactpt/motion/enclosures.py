@@ -27,6 +27,8 @@ MAX_SCALED_EXPONENT: Final = 900
 """Largest absolute value of a scale 2^s by which doubles are multiplied."""
 SMALLEST_OF_ARMS: Final = 2.0**-100
 """The same for `Arm`: certificates with arms have products of four coefficients."""
+FEW: Final = 16
+"""Number of trajectories from one look at the budget to the next."""
 INTEGERS: Final = 2.0**53
 """All integers of smaller absolute value are doubles."""
 
@@ -129,8 +131,9 @@ class Enclosures:
         float_tracks: list[FloatTrack] = []
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
-        for track in tracks:
-            check_budget()
+        for k, track in enumerate(tracks):
+            if k % FEW == 0:
+                check_budget()
             if last is None or track.motion != last:
                 motion, last = self._number(track.motion), track.motion
                 tails = self._integer_tails(track)

@@ -10,6 +10,7 @@ from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import FAR, TINY, U
+from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
 from exactpt.motion.shape import are_constant
@@ -48,6 +49,22 @@ def is_rigid(body: Body) -> bool:
         and are_constant(body.vertices)
         and all(isinstance(m, (Translation, Rigid)) for m in motions)
     )
+
+
+def reach_from(body: Body, point: tuple[QQ, QQ]) -> QQ | None:
+    """Return a number that is at least the distance of all vertices from a point, at rest.
+
+    It is a double; None if that is out of range.
+
+    Args:
+        body: a body whose vertices are constant.
+        point: a point of the frame in which it rests.
+    """
+    px, py = point
+    places = [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices]
+    root = nearest_square_root(max((x - px) ** 2 + (y - py) ** 2 for x, y in places))
+    reach = math.nextafter(root, math.inf)  # the root is at most half a unit above the nearest
+    return QQ(reach) if math.isfinite(reach) else None
 
 
 def may_touch_itself(body: Body) -> bool:

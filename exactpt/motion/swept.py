@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 INSTANT: Final = 2.0**-20
 """A short time, of a normalised span."""
 
+NO_DRIFT: Final = np.zeros((2, 1))
+"""The coefficients of a drift that is 0."""
+
 
 @final
 class SweptBoxes:
@@ -31,25 +34,32 @@ class SweptBoxes:
     Args:
         float_tracks: the enclosures.
         errors: their error bounds, see `exactpt.motion.enclosures.Enclosures`.
-        drifting: whether the drift is subtracted; if not, it is 0.
+        drift: the coefficients of the drift; by default these medians, unless more vertices turn.
 
     Attributes:
         drift: the coefficients of the drift in x and in y, the constant (0) first.
     """
 
     def __init__(
-        self, float_tracks: Sequence[FloatTrack], errors: Sequence[float], *, drifting: bool = True
+        self,
+        float_tracks: Sequence[FloatTrack],
+        errors: Sequence[float],
+        drift: Floats | None = None,
     ) -> None:
         size = max(float_track.degree for float_track in float_tracks) + 1
+        if drift is not None:
+            size = max(size, drift.shape[1])
         self._xs, self._ys, self._ws = (np.zeros((len(float_tracks), size)) for _ in range(3))
         self._turning = np.zeros(len(float_tracks), dtype=np.bool_)
         self.drift = np.zeros((2, size))
+        if drift is not None:
+            self.drift[:, : drift.shape[1]] = drift
         self.replace(0, float_tracks, errors)
         straight = ~self._turning & ~np.isnan(self._xs[:, 0])
-        if drifting and straight.any():
-            for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
-                drift[1:] = middles(cs[straight, 1:])
-                cs[~self._turning] -= drift
+        if drift is None and 2 * straight.sum() >= len(straight):
+            for path, cs in zip(self.drift, (self._xs, self._ys), strict=True):
+                path[1:] = middles(cs[straight, 1:])
+                cs[~self._turning] -= path
             self._gather()
 
     def replace(
@@ -143,20 +153,13 @@ class SweptBoxes:
         return shifted[..., 0] - radius, shifted[..., 0] + radius
 
     @np.errstate(all="ignore")
-    def stride(self, now: float) -> float:
-        """Return the normalised time in which vertices move by their mean distance, on average.
+    def places(self, times: Sequence[float]) -> Floats:
+        """Return about the places of all vertices less the drift at some times: (k, n, 2).
 
-        An estimate that only chooses time steps. Infinite if no vertex moves relative to the
-        drift; NaN if it is unknown.
+        They are the middles of boxes; NaN where these are not known.
         """
-        here, there = (self._middles(t) for t in (now, now + INSTANT))
-        gap = np.hypot(*np.ptp(here, axis=0)) / np.sqrt(len(here))
-        return float(gap / np.hypot(*(there - here).T).mean() * INSTANT)
-
-    def _middles(self, t: float) -> Floats:
-        """Return the middles of the boxes at a time."""
-        boxes = self.during(t, t)
-        return 0.5 * (boxes[:, ::2] + boxes[:, 1::2])
+        boxes = self.during(np.array(times), np.array(times))
+        return 0.5 * (boxes[..., ::2] + boxes[..., 1::2])
 
 
 def _difference(

@@ -18,7 +18,7 @@ from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
 from exactpt.motion.outline import Outline, Straight
-from exactpt.motion.slabs import Near, slabs
+from exactpt.motion.slabs import Near, Slab, slabs
 from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 
 if TYPE_CHECKING:
@@ -221,21 +221,19 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
                 yield time, k, l
 
 
-def _slabs(
-    boxes: PieceBoxes, span: tuple[QQ, QQ], many: int, first: QQ
-) -> Iterator[tuple[QQ, QQ, Near]]:
-    """Yield slabs of time and their candidates; the last is the rest of the span, if possible."""
+def _slabs(boxes: PieceBoxes, span: tuple[QQ, QQ], many: int, first: QQ) -> Iterator[Slab]:
+    """Yield slabs of time; the last is the rest of the span, if possible."""
 
-    def near(now: QQ, later: QQ) -> Near:
-        return _meeting(boxes, *_around(now, later))
+    def between(now: QQ, later: QQ) -> Slab:
+        return Slab(now, later, _meeting(boxes, *_around(now, later)))
 
-    end = span[1]
-    for count, slab in enumerate(slabs(span, near, many, first, end - span[0]), 1):
+    start, end = span
+    for count, slab in enumerate(slabs(start, end, between, many, first, end - start), 1):
         yield slab
-        if count >= FEW_SLABS and count & (count - 1) == 0 and slab[1] < end:
-            rest = boxes.meeting_on_the_way(*_around(slab[1], end), many)
+        if count >= FEW_SLABS and count & (count - 1) == 0 and slab.end < end:
+            rest = boxes.meeting_on_the_way(*_around(slab.end, end), many)
             if rest is not None:
-                yield slab[1], end, rest
+                yield Slab(slab.end, end, rest)
                 return
 
 

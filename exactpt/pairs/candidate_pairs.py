@@ -10,7 +10,7 @@ import numpy as np
 
 from exactpt.geometry.boxes import grown, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
-from exactpt.motion.slabs import Near
+from exactpt.motion.slabs import Near, Slab
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import ScenePieces, linear_pieces
@@ -49,7 +49,7 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     return {pair: sorted(found[pair]) for pair in sorted(found)}
 
 
-def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
+def _near_slabs(scene: Scene, reach: QQ) -> Iterator[Slab]:
     """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
     swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
     units = [power_of_two(-scale) for scale in swept.vertices.normalization.scale]
@@ -62,4 +62,4 @@ def _near_slabs(scene: Scene, reach: QQ) -> Iterator[tuple[QQ, QQ, Near]]:
         return np.concatenate(i), np.concatenate(j)
 
     longest, many = (scene.exact_end - scene.exact_start) / SLABS, 8 * len(scene.bodies) + 64
-    return swept.slabs(near, longest, many)
+    return swept.slabs(near, longest, many, bodies_of=lambda pairs: pairs)

@@ -6,17 +6,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from typing import final
+from typing import Final, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, show
 from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
 from exactpt.pairs.features import Feature
 from exactpt.pairs.piece_pairs import cores_intersect, two_bodies
 from exactpt.scene.scene import Scene
+
+FEW: Final = 128
+"""Maximum number of pairs of vertices of two bodies of which all features are compared exactly."""
 
 
 @final
@@ -167,8 +171,14 @@ def _in_order(pair: tuple[Feature, Feature]) -> list[int]:
 
 
 def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
-    """Yield the squared distances of vertices from vertices, and from the interiors of edges."""
+    """Yield squared distances of vertices from vertices, and from the interiors of edges.
+
+    All that are least are among them.
+    """
     p, q = a.exact_at(t), b.exact_at(t)
+    if a.size * b.size > FEW:
+        yield from _filtered_features(a, p, b, q)
+        return
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         yield _squared(u, v), (Feature(i, None), Feature(j, None))
     for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):
@@ -179,6 +189,26 @@ def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature,
         squared = squared_from_interior(u, q[k], q[l])
         if squared is not None:
             yield squared, (Feature(i, None), Feature(None, e))
+
+
+def _filtered_features(
+    a: Body, p: list[Point], b: Body, q: list[Point]
+) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
+    """Yield the same of those features that may be nearest, given the vertices of the bodies."""
+    from exactpt.pairs.nearest_at import incidences_that_may_be_nearest
+
+    edges, points = (a.edges, b.edges), (p, q)
+    for body, vertex, other, edge, other_vertex in incidences_that_may_be_nearest(a, p, b, q):
+        check_budget()
+        one, v = Feature(vertex, None), points[body][vertex]
+        if edge < 0:
+            yield _squared(v, points[other][other_vertex]), (one, Feature(other_vertex, None))
+            continue
+        k, l = edges[other][edge]
+        squared = squared_from_interior(v, points[other][k], points[other][l])
+        if squared is not None:
+            two = Feature(None, edge)
+            yield squared, (one, two) if body < other else (two, one)
 
 
 def _squared(u: Point, v: Point) -> QQ:

@@ -7,15 +7,13 @@ translation: if this has a degree of at most 1, between its places at the start 
 
 from __future__ import annotations
 
-import math
-
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.outline import reach_from
 from exactpt.motion.shape import are_constant
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
@@ -50,12 +48,10 @@ def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
         path = motion.motions[0]
         if not isinstance(path, Rigid):
             return None
-        px, py = path.exact_pivot
-        reach = nearest_square_root(max((x - px) ** 2 + (y - py) ** 2 for x, y in places))
-        reach = math.nextafter(reach, math.inf)  # the root is at most half a unit above the nearest
-        if not math.isfinite(reach):
+        reach = reach_from(body, path.exact_pivot)
+        if reach is None:
             return None
-        places, margin = [(px, py)], QQ(reach) + body.exact_radius
+        places, margin = [path.exact_pivot], reach + body.exact_radius
     elif isinstance(motion, Translation):
         path, margin = motion, body.exact_radius
     else:

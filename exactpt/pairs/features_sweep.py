@@ -150,7 +150,8 @@ class PairsSearch:
         touches, initial_pairs = initial_touches(scene, self._near_at_start())
         if initial_pairs:
             return contact_of(scene, AlgebraicNumber(scene.exact_start), touches, initial_pairs)
-        return self._run() if scene.bodies else None
+        found = self.first_after_start() if scene.bodies else None
+        return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _near_at_start(self) -> list[tuple[int, int]] | None:
         """Return the pairs that count and may touch at the start; None if every pair counts."""
@@ -171,8 +172,8 @@ class PairsSearch:
         self._counters = swept.vertices.counters
         return swept
 
-    def _run(self) -> Contact | None:
-        """Search slab by slab."""
+    def first_after_start(self) -> LinearContact | None:
+        """Return the first contact of bodies that are disjoint at the start, slab by slab."""
         self._passed = self._scene.exact_start
         approaches = self._approaches
         for now, later, near in self._swept.slabs(self._near):
@@ -186,8 +187,8 @@ class PairsSearch:
             ):
                 if found is not None:
                     best.add(*found)
-            if best.number is not None:
-                return contact_of(self._scene, best.number, best.found)
+            if best.time is not None:
+                return LinearContact(best.time, best.found)
             self._passed = later
         return None
 
@@ -223,7 +224,7 @@ class PairsSearch:
         boxes = self._swept.during(now, later)
         vs, es = [], []
         for v, e in self._swept.meeting(boxes, self._swept.around(boxes)):
-            may = self._may_touch(v, e, boxes)
+            may = self._may_touch(v, e, boxes) & ~self._swept.move_together(v, e, later)
             vs.append(v[may])
             es.append(e[may])
         if self._approaches is not None:
@@ -235,22 +236,20 @@ class PairsSearch:
     def _may_touch(self, v: Indices, e: Indices, boxes: Floats) -> Flags:
         """For each pair, whether the vertex can start to touch the edge.
 
-        It cannot if both have the same motion, belong to one rigid body, or are ignored. A vertex
+        It cannot if both belong to one rigid body, or are ignored. A vertex
         is not paired with its own edges, except with the edge that starts at it if the boxes of
         that edge's ends coincide: the edge may shrink to a point.
         """
         swept = self._swept
         a, b = swept.ends[e, 0], swept.ends[e, 1]
         i, j = swept.body[v], swept.body[a]
-        motion = swept.motion[v]
-        together = (motion >= 0) & (motion == swept.motion[a]) & (motion == swept.motion[b])
         rigid = (i == j) & ~swept.deforms[i]
         p, q = boxes[a], boxes[b]
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
         ignored = self._selection.ignored(i, j) | ((i == j) & self._ignores_self[i])
         rounded = self._has_radius[i] | self._has_radius[j]
-        may: Flags = ~(together | rigid | ignored | lasts | rounded)
+        may: Flags = ~(rigid | ignored | lasts | rounded)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:

@@ -155,9 +155,9 @@ class NearFeatures:
             boxes = self._boxes.during(first, last)
             p, q = grown(boxes[:n], by), boxes[n:]
             found += [i * m + j for i, j in crossing_pairs(p, q)]
-            edges = _joined(p[e], p[e_to])
+            edges = joined(p[e], p[e_to])
             found += [n * m + i * m + j for i, j in crossing_pairs(edges, q)]
-            edges = _joined(q[f], q[f_to])
+            edges = joined(q[f], q[f_to])
             start = (n + len(e)) * m
             found += [start + i * len(f) + j for i, j in crossing_pairs(p, edges)]
         return np.unique(np.concatenate(found))
@@ -168,7 +168,7 @@ class NearFeatures:
         at = np.searchsorted(self.all, numbers)
         v, a, b = (ends[at] for ends in self._ends)
         boxes = self._during(low, high)
-        kept = np.flatnonzero(_may_be_least(boxes, v, a, b))
+        kept = np.flatnonzero(may_be_least(boxes, v, a, b))
         if self._translates and len(kept) > ENOUGH:
             v, a, b = v[kept], a[kept], b[kept]
             along, bound = _beyond(boxes, self._between(low, high), v, a, b)
@@ -178,7 +178,7 @@ class NearFeatures:
         return numbers[kept]
 
 
-def _joined(some: Boxes, others: Boxes) -> Boxes:
+def joined(some: Boxes, others: Boxes) -> Boxes:
     """Return for each two boxes the least box that contains both."""
     boxes = np.maximum(some, others)
     boxes[:, ::2] = np.minimum(some[:, ::2], others[:, ::2])
@@ -186,7 +186,7 @@ def _joined(some: Boxes, others: Boxes) -> Boxes:
 
 
 @np.errstate(all="ignore")
-def _may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> Flags:
+def may_be_least(boxes: Boxes, v: Indices, a: Indices, b: Indices) -> Flags:
     """Return which pairs of a vertex and an edge may be nearest; see the module."""
     x, y = 0.5 * (boxes[:, 0] + boxes[:, 1]), 0.5 * (boxes[:, 2] + boxes[:, 3])
     off_x = np.maximum(boxes[:, 1] - x, x - boxes[:, 0])

@@ -14,7 +14,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.normalization import Normalization, normalization_for
 from exactpt.motion.outline import far_origin
-from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.swept import NO_DRIFT, SweptBoxes
 from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.scene.scene import Scene
@@ -63,7 +63,7 @@ class SlabBoxes:
             low, high = self._normalization.time(since)[0], self._normalization.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
             float_tracks = self._enclosures.of_piece(body.exact_piece_after(since))
-            swept = SweptBoxes(float_tracks, self._enclosures.errors, drifting=False)
+            swept = SweptBoxes(float_tracks, self._enclosures.errors, NO_DRIFT)
             lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
             places = swept.during(lows, highs)
             boxes[during, ::2] = np.minimum(boxes[during, ::2], places[..., ::2].min(axis=1))

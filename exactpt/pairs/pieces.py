@@ -1,6 +1,6 @@
 """Motion pieces: bodies while they move linearly, and when the boxes of two of them intersect.
 
-A body has a piece for each piece of its motion, if all are linear and it is not large.
+A body has a piece for each piece of its motion, if all are linear.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 FEW: Final = 10
 """Maximum number of pieces of which all pairs are compared without numpy."""
-MAX_VERTICES: Final = 64
-"""Maximum number of vertices of a body for which comparing two bodies vertex by vertex pays."""
+LARGE: Final = 1 << 13
+"""Product of the sizes of two bodies above which they are not compared vertex by vertex."""
 
 
 class MotionPiece(NamedTuple):
@@ -150,14 +150,17 @@ class ScenePieces:
                 yield enter, pieces[i], pieces[j]
 
 
+def are_large(one: int, other: int) -> bool:
+    """Return True if two bodies of these numbers of vertices are not compared vertex by vertex."""
+    return one * other > LARGE
+
+
 def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
-    """Return the pieces of all bodies; None unless all of them move straight and are not large."""
+    """Return the pieces of all bodies; None unless all of them move straight."""
     found: list[MotionPiece] = []
     origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
         check_budget()
-        if body.size > MAX_VERTICES:
-            return None
         pieces = straight_pieces(body, origin=origin)
         if pieces is None:
             return None

@@ -15,7 +15,7 @@ from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.obstacles import ActiveInterval, Obstacles
-from exactpt.pairs.pieces import MAX_VERTICES, ScenePieces, pieces_during
+from exactpt.pairs.pieces import ScenePieces, pieces_during
 from exactpt.pairs.search import LinearSearch
 from exactpt.pairs.selection import Selection
 from exactpt.scene.scene import Scene
@@ -94,7 +94,7 @@ class Planner:
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:
         scene, prepared = self._scene, self._obstacles.pieces
         Scene([body], (scene.start, scene.end))
-        if prepared is not None and outline is not None and body.size <= MAX_VERTICES:
+        if prepared is not None and outline is not None:
             pieces = straight_pieces(body, outline, self._obstacles.origin)
             if pieces is not None:
                 number = len(scene.bodies)

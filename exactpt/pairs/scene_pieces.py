@@ -18,7 +18,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, rest_outline, straight_pieces
 from exactpt.pairs.boxes import PieceBoxes, radius_above
-from exactpt.pairs.pieces import MAX_VERTICES, MotionPiece, ScenePieces
+from exactpt.pairs.pieces import MotionPiece, ScenePieces
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
@@ -37,7 +37,7 @@ class _OnDemand(dict[int, MotionPiece]):
 
 
 def pieces_on_demand(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
-    """Return the pieces of a scene; None unless all are linear, small and exact in doubles.
+    """Return the pieces of a scene; None unless all are linear and exact in doubles.
 
     Their boxes are grown by a margin.
     """
@@ -60,9 +60,8 @@ def pieces_on_demand(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
 
 @np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
-    """Return the numbers of `PieceBoxes` but times; None unless all are small and linear."""
-    bends = bodies.coefficients[:, :, 2:].any()
-    if bends or np.diff(bodies.offsets).max(initial=0) > MAX_VERTICES:
+    """Return the numbers of `PieceBoxes` but times; None unless all are linear."""
+    if bodies.coefficients[:, :, 2:].any():
         return None
     first = native(bodies.offsets[:-1])
     numbers = np.zeros((len(bodies), 13))
@@ -89,7 +88,7 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
     """Return the numbers of a body in straight motion; None unless doubles are exact."""
     doubles = body.exact_shape.doubles
-    if doubles is None or type(body.motion) is not Translation or body.size > MAX_VERTICES:
+    if doubles is None or type(body.motion) is not Translation:
         return None
     x, y = body.motion.x.exact_doubles, body.motion.y.exact_doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:

@@ -15,18 +15,20 @@ from typing import TYPE_CHECKING, final
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget, deadline_in, searching
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import QQ, fraction, isqrt
 from exactpt.motion.body import Body
 from exactpt.motion.outline import Straight
 from exactpt.motion.track import Incidence, renumbered
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.filters import candidates_of
+from exactpt.pairs.filters import candidates_of, window
 from exactpt.pairs.pieces import (
     FEW,
+    LARGE,
     ContactDistance,
     Distance,
     MotionPiece,
     ScenePieces,
+    are_large,
     contact_distance,
     linear_pieces,
 )
@@ -40,7 +42,7 @@ from exactpt.pairs.rational import (
     span_of,
 )
 from exactpt.pairs.selection import Selection
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, scene_of
 
 if TYPE_CHECKING:
     from exactpt.pairs.features_sweep import PairsSearch
@@ -135,7 +137,7 @@ def pair_search(
     selection: Selection | None = None,
     max_seconds: float | None = None,
 ) -> LinearSearch | PairsSearch:
-    """Return the search over pairs: for linear motion if all bodies are small and linear.
+    """Return the search over pairs: for linear motion if all bodies are linear.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -153,10 +155,13 @@ def pair_search(
 
 
 def scene_pieces_if_linear(scene: Scene, margin: float = 0.0) -> ScenePieces | None:
-    """Return the pieces of all bodies; None unless all of them move straight and are not large.
+    """Return the pieces of all bodies; None unless all of them move straight.
 
-    If they are more than a few, their boxes are grown by a margin.
+    None too if no two bodies are compared vertex by vertex, as all are large. If the pieces are
+    more than a few, their boxes are grown by a margin.
     """
+    if _are_all_large(scene):
+        return None
     if len(scene.bodies) > FEW:
         from exactpt.pairs.scene_pieces import pieces_on_demand
 
@@ -169,6 +174,16 @@ def scene_pieces_if_linear(scene: Scene, margin: float = 0.0) -> ScenePieces | N
         if linear is None
         else ScenePieces.of(linear, scene.exact_start, scene.exact_end, margin)
     )
+
+
+def _are_all_large(scene: Scene) -> bool:
+    """Return True if any two bodies are large: then one sweep over all features is faster."""
+    others = len(scene.bodies) - 1
+    # All but the smallest body have more than sqrt(LARGE) vertices, if any two are large.
+    if others < 1 or scene.vertex_count <= others * isqrt(LARGE):
+        return False
+    smallest, next_one, *_ = sorted(body.size for body in scene.bodies)
+    return are_large(smallest, next_one)
 
 
 def first_among_pieces(
@@ -234,12 +249,32 @@ class _Search:
             span = self._spans[start, end] = span_of(start, end)
         distance = self._distance(a, b)
         nearest = 0.0 if distance is None else distance.nearest
+        if are_large(a.straight.body.size, b.straight.body.size):
+            self._compare_large(a, b, span, distance)
+            return
         candidates = candidates_of(a.straight, b.straight, span, self.best.high, nearest)
         if not candidates:
             self.filtered += 1
             return
         self.exact += 1
         met = first_of_candidates(a.straight, b.straight, span, candidates, distance)
+        if met is not None:
+            self.best.add(met.time, renumbered(met.touches, a.body, b.body))
+
+    def _compare_large(
+        self, a: MotionPiece, b: MotionPiece, span: Span, distance: ContactDistance | None
+    ) -> None:
+        """Compare two pieces of large bodies, while their boxes meet."""
+        reach = 0.0 if distance is None else distance.nearest
+        latest = min(span.high, self.best.high)
+        low, high = window(a.straight, b.straight, span.low, latest, reach)
+        start = max(span.start, QQ(low))  # if it is low, boxes do not meet yet
+        end = min(self.best.until(span.end), QQ(high))
+        if start >= end:
+            self.filtered += 1
+            return
+        self.exact += 1
+        met = first_of_large((a.straight.body, b.straight.body), start, end, distance)
         if met is not None:
             self.best.add(met.time, renumbered(met.touches, a.body, b.body))
 
@@ -263,6 +298,29 @@ def first_of_candidates(
     if distance is None:
         return first_incidence(a, b, span, candidates)
     return first_at_distance((a.body, b.body), *span[:2], candidates, distance.squared)
+
+
+def first_of_large(
+    bodies: tuple[Body, Body], start: QQ, end: QQ, distance: ContactDistance | None
+) -> LinearContact | None:
+    """Return the first contact of two large bodies in (start, end], by a sweep over features.
+
+    Args:
+        bodies: two bodies; they are disjoint at the start, or farther apart than the distance.
+        start: the start.
+        end: the end.
+        distance: the contact distance of the cores; None if it is 0.
+    """
+    scene = scene_of(bodies, start, end)
+    if distance is None:
+        from exactpt.pairs.features_sweep import PairsSearch
+
+        return PairsSearch(scene).first_after_start()
+    from exactpt.pairs.approach import root_above
+    from exactpt.pairs.approach_search import ApproachSearch
+
+    squared, half = distance.squared, root_above(distance.squared) / 2
+    return ApproachSearch(scene, lambda _i, _j: squared, [half, half]).run()
 
 
 def first_at_distance(

@@ -1,8 +1,9 @@
 """Laws about costs, by counts: what matters to nobody changes none by more than a stated share.
 
-A bystander is added to a scene: a body far from all others, at rest or fast, or a later end of the
-time span than the first contact. The first contact is the same. The counts that the command
-``exactpt collide`` reports, and the number of looks at the clock, may grow by `SHARE` and `MARGIN`.
+A bystander is added to a scene: a body far from all others, at rest, fast or of many vertices, or a
+later end of the time span than the first contact. The first contact is the same. The counts that
+the command ``exactpt collide`` reports, and the number of looks at the clock, may grow by `SHARE`
+and `MARGIN`, looks also by `READ`.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ __all__ = [
     "one_body_in_pieces",
     "one_far_body",
     "one_fast_body",
+    "one_large_body",
 ]  # fmt: skip
 
 SHARE: Final = 1.25
@@ -45,11 +47,17 @@ SHARE_OF_CHANGES: Final = 1.5
 MARGIN: Final = 8
 """Number by which a count may grow beyond that, for each bystander."""
 
+READ: Final = 2
+"""Number of looks at the clock, beyond that, for each vertex of bystanders after four of each."""
+
 COUNTED: Final = ("certificates", "exact")
 """Counts of the command: pairs of features or certificates, and exact decisions."""
 
 CHANGED: Final = 8
 """Number of bodies whose changes are counted."""
+
+LOOKS: Final = "looks"
+"""Number of looks at the clock: also reading a scene takes some."""
 
 Bystander: TypeAlias = Callable[[Scene], tuple[Scene, int]]
 """Returns a scene with bystanders, and their number."""
@@ -89,6 +97,14 @@ def one_fast_body(scene: Scene) -> tuple[Scene, int]:
     return _with_bodies(scene, 1, lambda size: 1000 * size)
 
 
+def one_large_body(scene: Scene) -> tuple[Scene, int]:
+    """Add a body at rest, far away, with 100 vertices on a parabola."""
+    size, far = _size_and_far(scene)
+    corners = [(far + size * QQ(k, 100), far + size * QQ(k, 100) ** 2) for k in range(100)]
+    body = Body("bystander", [tuple(map(fraction, p)) for p in corners])
+    return Scene([*scene.bodies, body], (scene.start, scene.end)), 1
+
+
 def one_body_in_pieces(scene: Scene) -> tuple[Scene, int]:
     """Add a body far away whose motion has 16 pieces."""
     size, far = _size_and_far(scene)
@@ -118,8 +134,11 @@ def bystander_costs_nothing(bystander: Bystander, *options: str) -> Check:
         before, contact = _counts(scene, options)
         after, same = _counts(crowd, options)
         check_equal("time of the contact", same, contact)
+        vertices = crowd.vertex_count - scene.vertex_count - 4 * number
         for name, count in before.items():
             most = SHARE * count + MARGIN * (1 + number)
+            if name == LOOKS:
+                most += READ * max(0, vertices)
             if after[name] > most:
                 raise Difference(name, f"{count} became {after[name]}, at most {most:.0f}")
         return "no contact" if contact is None else "a contact"
@@ -207,3 +226,5 @@ def _touched(run: Simulation) -> int:
     made, skipped = run.stats["certificates"], run.stats["skipped"]
     assert isinstance(made, int) and isinstance(skipped, int)  # noqa: S101, PT018 - documented
     return made + skipped
+
+    return {**counts, LOOKS: clock.looks}, contact and contact["time"]

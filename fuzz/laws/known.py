@@ -19,25 +19,13 @@ class Known(NamedTuple):
     reason: str
 
 
-SLABS: Final = "the length of a slab follows from the displacement and the distance of all vertices"
 HOLES: Final = "where a body with holes comes or goes, the whole tiling is built anew"
-PIECES: Final = "the end of a piece of one motion ends the slab of all bodies"
 
 KNOWN: Final[tuple[Known, ...]] = (
-    Known("cost/far bodies whole/turning:0:4", SLABS),
-    Known("cost/fast body whole/deforming:0:5", SLABS),
-    Known("cost/fast body whole/ballistic:0:14", SLABS),
-    Known("cost/fast body whole/turning:0:15", SLABS),
-    Known("cost/fast body whole/deforming:0:16", SLABS),
     Known("cost/changes whole/frames:0:4", HOLES),
     Known("cost/changes whole/frames:0:9", HOLES),
     Known("cost/changes whole/frames:0:14", HOLES),
     Known("cost/changes whole/frames:0:19", HOLES),
-    Known("cost/body in pieces whole/ballistic:0:3", PIECES),
-    Known("cost/body in pieces whole/deforming:0:5", PIECES),
-    Known("cost/body in pieces whole/ballistic:0:14", PIECES),
-    Known("cost/body in pieces whole/turning:0:15", PIECES),
-    Known("cost/body in pieces whole/deforming:0:16", PIECES),
 )
 """The known cases. Who mends one removes it here."""
 

@@ -28,6 +28,7 @@ from fuzz.laws.costs import (
     one_body_in_pieces,
     one_far_body,
     one_fast_body,
+    one_large_body,
 )
 from fuzz.laws.distances import clearance_is_the_distance, surroundings_are_of_each_pair
 from fuzz.laws.drawn import (
@@ -486,6 +487,7 @@ LAWS: Final[dict[str, Law]] = {
             ("far body", one_far_body),
             ("far bodies", many_far_bodies),
             ("fast body", one_fast_body),
+            ("large body", one_large_body),
             ("body in pieces", one_body_in_pieces),
             ("later end", later_end),
         )

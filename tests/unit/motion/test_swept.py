@@ -83,7 +83,8 @@ def test_what_all_have_in_common_moves_no_box():
 
     for i, box in enumerate(swept.during(0.0, 1000.0).tolist()):
         assert [round(v, 6) for v in box] == [3 * i, 3 * i, i, i]
-    assert swept.stride(0.0) == float("inf")
+    here, there = swept.places([0.0, 1000.0])
+    assert there == pytest.approx(here, abs=1e-6)
 
 
 @pytest.mark.long("5-5", "5-7", "5-9", "5-11", "5-13")
