@@ -159,7 +159,7 @@ def _counts(scene: Scene, options: tuple[str, ...]) -> tuple[dict[str, int], obj
     stats = data["stats"]
     counts = {name: int(stats.get(name, 0)) for name in COUNTED}
     contact = data["contact"]
-    return {**counts, "looks": clock.looks}, contact and contact["time"]
+    return {**counts, LOOKS: clock.looks}, contact and contact["time"]
 
 
 # Changes of a run
@@ -226,5 +226,3 @@ def _touched(run: Simulation) -> int:
     made, skipped = run.stats["certificates"], run.stats["skipped"]
     assert isinstance(made, int) and isinstance(skipped, int)  # noqa: S101, PT018 - documented
     return made + skipped
-
-    return {**counts, LOOKS: clock.looks}, contact and contact["time"]
