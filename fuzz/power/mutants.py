@@ -37,7 +37,8 @@ class Mutant(NamedTuple):
     """A function of which one place is changed.
 
     Attributes:
-        name: the function and the change, "exactpt.pairs.boxes.joined: a < b -> a <= b".
+        name: the function, the number of the place in it, and the change, as in
+            "exactpt.pairs.boxes.joined[2]: a < b -> a <= b".
         lines: the changed lines, from the beginning of their statement on.
         make: changes the function in this process.
     """
@@ -207,7 +208,7 @@ def _mutant(place: _Place) -> Mutant | None:
     if function.__code__.co_freevars != code.co_freevars:
         return None
     lines = Lines(str(relative), site.first, site.last)
-    name = f"{module}.{'.'.join(names)}: {text}"
+    name = f"{module}.{'.'.join(names)}[{number}]: {text}"
     return Mutant(name, lines, functools.partial(_exchange, function, code))
 
 
