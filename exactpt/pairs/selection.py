@@ -133,16 +133,16 @@ class Selection:
     def of_bodies(self, numbers: Sequence[int]) -> Selection:
         """Return the selection of the same pairs of some bodies, which are numbered anew.
 
+        No pairs are named.
+
         Args:
             numbers: the numbers of the bodies, increasing.
         """
+        assert self.named is None  # noqa: S101 - `exactpt.pairs.selected` takes named pairs
         bodies = [self.bodies[i] for i in numbers]
         new = {i: k for k, i in enumerate(numbers)}
         members = [[new[i] for i in some if i in new] for some in self.members]
-        part = Selection.of_groups(bodies, members)
-        if self.named is not None:
-            part.named = [(new[i], new[j]) for i, j in self.named if i in new and j in new]
-        return part
+        return Selection.of_groups(bodies, members)
 
     @classmethod
     def of_groups(cls, bodies: Sequence[Body], groups: Sequence[Sequence[int]]) -> Selection:

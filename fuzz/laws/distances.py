@@ -11,6 +11,7 @@ from typing import Final
 import exactpt
 from exactpt import AlgebraicNumber, Clearance, Scene
 from exactpt.kernel.algebraic import rational_between
+from exactpt.kernel.algebraic_value import square_root
 from exactpt.kernel.numbers import QQ, ZZ, fraction
 from exactpt.pairs.clearance import ClearancePiece, CloseInterval
 from exactpt.testing import reference
@@ -126,13 +127,20 @@ def surroundings_are_of_each_pair(scene: Scene, random: Random) -> str:
     check_equal("body of the minimum", around.minimum.body, of_least[0])
     at = fraction(a_time(scene, random))
     distances = {other: exactpt.distance(scene, name, other, at=at) for other in others}
-    nearest = min(others, key=distances.__getitem__)
+    nearest = min(others, key=lambda other: _exactly(distances[other]))
     check_equal("nearest", around.nearest(at), (nearest, distances[nearest]))
+    check_equal("order", sorted(distances.values()), sorted(distances.values(), key=_exactly))
     check_equal("double", around(at), min(gap(at) for gap in alone.values()))
     distance = _a_distance_of(around, random)
     near = [interval for gap in alone.values() for interval in gap.below(distance)]
     check_equal("below", around.below(distance), tuple(sorted(near, key=_start_of)))
     return f"{min(len(near), 4)} intervals"
+
+
+def _exactly(there: exactpt.Distance) -> AlgebraicNumber:
+    """Return a distance as an exact number."""
+    root = square_root(AlgebraicNumber(there.core_squared))
+    return max(root - there.radius, AlgebraicNumber(0))
 
 
 def _a_distance_of(around: exactpt.Surroundings, random: Random) -> Fraction:

@@ -129,7 +129,17 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "first contact/points": Law(
         points_are_where_bodies_touch,
-        ("tiny/crossed", *FAMILY, *MOVING, "radii", "rings", "tiny/rounded", "tiny/scaled", "pair"),
+        (
+            "tiny/crossed",
+            *FAMILY,
+            *MOVING,
+            "radii",
+            "rings",
+            "tiny/rounded",
+            "tiny/scaled",
+            "pair",
+            "planks",
+        ),
         share=0.5,
     ),
     "first contact/images": Law(
@@ -337,8 +347,8 @@ LAWS: Final[dict[str, Law]] = {
     "budget/looks": Law(searches_look_at_the_clock, ("chevrons",), share=0.5, cases=3),
     "first contact/choices": Law(
         choices_are_each_pair_alone,
-        ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),
-        most=24,
+        ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward", "planks"),
+        most=80,
     ),
     "contacts/choices": Law(
         chosen_contacts_are_part_of_all,

@@ -7,6 +7,7 @@ often, and long thin ones side by side.
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from random import Random
 from typing import Final
 
@@ -20,6 +21,9 @@ PIECES: Final = 20
 
 LENGTH: Final = 1000
 """Length of a plank, of which the ends are a tenth of a unit wide."""
+
+UNITS: Final = (*[Fraction(1)] * 4, Fraction(2) ** 1013, Fraction(1, 2**1080))
+"""Units of length: in most cases one, else one that leaves the range of doubles."""
 
 
 def walkers(random: Random) -> Scene:
@@ -46,12 +50,20 @@ def planks(random: Random) -> Scene:
     """Return long thin triangles side by side, at angles about one direction, that drift apart."""
     angle = math.radians(random.choice([45, 20, 70, 90]))
     spread = math.radians(random.choice([0, 0.01, 0.1]))
+    unit = random.choice(UNITS)
     bodies = []
-    for k in range(random.choice([6, 20])):
+    for k in range(random.choice([6, 26])):
         x, y = -1.5 * k * math.sin(angle), 1.5 * k * math.cos(angle)
         turn = angle + random.uniform(-spread, spread)
         end = x + LENGTH * math.cos(turn), y + LENGTH * math.sin(turn)
         tip = end[0] - 0.1 * math.sin(turn), end[1] + 0.1 * math.cos(turn)
-        drift = Translation([0, random.uniform(-0.1, 0.1)], [0, random.uniform(-0.1, 0.1)])
-        bodies.append(Body(f"p{k}", [(x, y), end, tip], drift))
+        drift = random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)
+        corners = [_times(point, unit) for point in ((x, y), end, tip)]
+        u, v = _times(drift, unit)
+        bodies.append(Body(f"p{k}", corners, Translation([0, u], [0, v])))
     return Scene(bodies, time=(0, 3))
+
+
+def _times(vector: tuple[float, float], unit: Fraction) -> tuple[float | Fraction, ...]:
+    """Return a vector in another unit: doubles stay doubles, which are read in another way."""
+    return vector if unit == 1 else tuple(Fraction(c) * unit for c in vector)

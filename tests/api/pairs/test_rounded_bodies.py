@@ -201,6 +201,17 @@ def test_radius_below_all_doubles_counts():
     assert met(a, Body("b", [(4, -1), (4, 1)]), time=(0, 9)).time == 4 - tiny
 
 
+def test_contact_of_a_body_of_many_vertices_is_with_the_tooth_over_the_disc():
+    """The tooth at (50, 0) points down at the disc, whose centre is 60 - t^2 below it."""
+    saw = [(k, k % 2) for k in range(100)] + [(99, 9), (0, 9)]
+    falling = disc(at=(50, -60), motion=Translation([0], [0, 0, 1]))
+    contact = met(Body("saw", saw), falling, time=(0, 9))
+
+    assert contact.time.minimal_polynomial() == (-59, 0, 1)
+    assert met(Body("saw", saw), falling, time=(0, 9), between=[("saw", "disc")]) == contact
+    assert [(p.body, p.vertex, p.other) for p in contact.pairs] == [("saw", 50, "disc")]
+
+
 def test_new_contact_of_discs_is_when_they_meet_again_or_press():
     """Discs that kiss, part, and meet again; one that presses into another at once; one rolls."""
     hop = Pieces([(2, Translation([2], [0, 1])), (None, Translation([2], [4, -1]))])
@@ -230,10 +241,13 @@ def test_question_that_needs_a_tiling_is_refused():
             ask()
 
 
-def test_search_without_time_says_how_far_it_came():
-    bodies = [disc(str(i), (3 * i, 0), 1, Translation([0], [0, 0, i])) for i in range(300)]
+@pytest.mark.parametrize("path", [[0, 1], [0, 0, 1]], ids=["straight", "curved"])
+def test_search_without_time_says_how_far_it_came(path):
+    bodies = [
+        disc(str(i), (3 * i, 0), 1, Translation([0], [c * i for c in path])) for i in range(9)
+    ]
     with pytest.raises(BudgetExceeded) as spent:
-        met(*bodies, max_seconds=0)
+        met(*bodies, WALL, max_seconds=0)
     assert spent.value.reached in (None, 0)
 
 
