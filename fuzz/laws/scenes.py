@@ -27,6 +27,7 @@ from fuzz.questions.convoys import convoy
 from fuzz.questions.pockets import pocket_scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import (
+    arc_scene,
     chevrons,
     crowded_scene,
     distant_scene,
@@ -159,6 +160,7 @@ SOURCES: Final[dict[str, Source]] = {
     "general/lanes": _lanes,
     "far/relay": relay,
     "chevrons": chevrons,
+    "far/arc": arc_scene,
     "pockets": pocket_scene,
     "tiny/corners": corner_scene,
     "far/convoy": convoy,

@@ -279,7 +279,7 @@ def _path_length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
         return None
     check_equal("ends of a path", (path.points[0], path.points[-1]), (start, goal))
     length = length_of(path.points)
-    if LEAST < length.low and length.high < LARGEST:
+    if length.low > LEAST and length.high < LARGEST:
         check_equal("length of a path", path.length, float(length))
     return length
 

@@ -296,9 +296,9 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "simulation/fan": Law(
         fan_events_lead_from_fan_to_fan,
-        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points"),
+        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points", "far/arc"),
         share=0.5,
-        most=40,
+        most=70,
     ),
     "simulation/stops": Law(
         stops_change_nothing,
