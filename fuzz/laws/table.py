@@ -274,7 +274,16 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "simulation/population": Law(
         changed_run_is_a_new_scene,
-        (*MOVING, "family", "tiny/crowded", "tiny/fractions", "points", "rings", "family+awkward"),
+        (
+            *MOVING,
+            "family",
+            "tiny/crowded",
+            "tiny/fractions",
+            "points",
+            "tiny/crossing points",
+            "rings",
+            "family+awkward",
+        ),
         share=3,
         most=120,
     ),

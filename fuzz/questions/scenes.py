@@ -112,10 +112,14 @@ def chevrons(random: Random) -> Scene:
 def arc_scene(random: Random) -> Scene:
     """Return an arc of points, beside which two others change places time and again.
 
-    Each time the chain along the arc is walked along, until it has been made searchable.
+    Each time the chain along the arc is walked along, until it has been made searchable. Points of
+    the arc leave it slowly.
     """
     size, swaps = random.choice([8, 30]), 40
-    arc = [Body(f"a{i}", [(-i * i, 2 * i)]) for i in range(-size, size + 1)]
+    arc = []
+    for i in range(-size, size + 1):
+        slow = Translation([0], [0, QQ(random.choice([-1, 0, 0, 1]), 10)])
+        arc.append(Body(f"a{i}", [(-i * i, 2 * i)], slow))
     beside = 6 * size * size
     there_and_back: list[tuple[int | None, Translation]] = []
     for k in range(swaps):
