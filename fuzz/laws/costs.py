@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -167,7 +168,7 @@ def _surrounded(scene: Scene, count: int, distance: int) -> Scene:
     size, _ = _size_and_far(scene)
     radius = distance * size
     side = radius / (4 * count)
-    bodies = []
+    bodies: list[Body] = []
     for k in range(count):
         t = QQ(2 * k + 1 - count, count)
         x, y = radius * (1 - t * t) / (1 + t * t), radius * 2 * t / (1 + t * t)
@@ -184,20 +185,21 @@ def _certificates_of_changes(
     """Return the number of certificates that changes of some bodies touch, by kind of change."""
     run = Simulation(scene, tiling=tiling)
     refuse_unless(run.contact is None)
-    touched = _touched(run)
     counts = {"new motion": 0, "removed": 0, "added": 0}
     for name in names:
         body = run.body(name)
         moved = body.with_motion(exactpt.onward(body, scene.start, velocity))
-        for kind, change in (
-            ("new motion", lambda: run.set_motions({name: moved})),  # noqa: B023 - called at once
-            ("removed", lambda: run.remove(name)),  # noqa: B023
-            ("added", lambda: run.add(body)),  # noqa: B023
-        ):
-            change()
-            counts[kind] += _touched(run) - touched
-            touched = _touched(run)
+        counts["new motion"] += _touched_by(run, partial(run.set_motions, {name: moved}))
+        counts["removed"] += _touched_by(run, partial(run.remove, name))
+        counts["added"] += _touched_by(run, partial(run.add, body))
     return counts
+
+
+def _touched_by(run: Simulation, change: Callable[[], object]) -> int:
+    """Return the number of certificates that a change of a run touches."""
+    before = _touched(run)
+    change()
+    return _touched(run) - before
 
 
 def _touched(run: Simulation) -> int:

@@ -45,6 +45,8 @@ TAME: Final = 0.2
 RESPONSES: Final = 6
 """Number of contacts with a response; the next one ends the journey."""
 
+Response: TypeAlias = Callable[[Simulation, Contact], object]
+
 Rest: TypeAlias = "Callable[[Journey], object]"
 """What happens between two legs: it may look at the run, or replace it by an equal one."""
 
@@ -120,7 +122,7 @@ class Journey:
         return min(scene.end, start + self._part * (gone + self._random.randint(1, 12)))
 
     def _note(self) -> None:
-        self.moments.append(Moment(self.run.now.low, self.run.scene.bodies))
+        self.moments.append(Moment(self.run.now.low, tuple(self.run.scene.bodies)))
 
     # Responses
 
@@ -128,7 +130,7 @@ class Journey:
         """Let bodies bounce, stop or go anywhere."""
         if run.contacts > RESPONSES:
             return
-        kinds = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
+        kinds: list[Response] = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
         if not self._keeps_shapes:
             kinds.append(exactpt.stop)
         respond = self._go_anywhere if contact.kind == "self" else self._random.choice(kinds)
