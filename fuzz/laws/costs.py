@@ -204,21 +204,21 @@ def _certificates_of_changes(
     """Return the number of certificates that changes of some bodies touch, by kind of change."""
     run = Simulation(scene, tiling=tiling)
     refuse_unless(run.contact is None)
-    touched = _touched(run)
     counts = {"new motion": 0, "removed": 0, "added": 0}
     for name in names:
         body = run.body(name)
         moved = body.with_motion(exactpt.onward(body, scene.start, velocity))
-        changes: tuple[tuple[str, Callable[[], object]], ...] = (
-            ("new motion", partial(run.set_motions, {name: moved})),
-            ("removed", partial(run.remove, name)),
-            ("added", partial(run.add, body)),
-        )
-        for kind, change in changes:
-            change()
-            counts[kind] += _touched(run) - touched
-            touched = _touched(run)
+        counts["new motion"] += _touched_by(run, partial(run.set_motions, {name: moved}))
+        counts["removed"] += _touched_by(run, partial(run.remove, name))
+        counts["added"] += _touched_by(run, partial(run.add, body))
     return counts
+
+
+def _touched_by(run: Simulation, change: Callable[[], object]) -> int:
+    """Return the number of certificates that a change of a run touches."""
+    before = _touched(run)
+    change()
+    return _touched(run) - before
 
 
 def _touched(run: Simulation) -> int:

@@ -14,8 +14,17 @@ from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
 import exactpt
-from exactpt import Body, Contact, InputError, Pieces, Rigid, RunEvent, Scene, Simulation
-from exactpt import Translation as Moved
+from exactpt import (
+    Body,
+    Contact,
+    InputError,
+    Pieces,
+    Rigid,
+    RunEvent,
+    Scene,
+    Simulation,
+    Translation,
+)
 from exactpt.kernel.numbers import QQ
 from exactpt.testing.reference.shapes import bodies_meet
 from fuzz.laws.law import check_equal, refuse_unless
@@ -35,6 +44,8 @@ TAME: Final = 0.2
 
 RESPONSES: Final = 6
 """Number of contacts with a response; the next one ends the journey."""
+
+Response: TypeAlias = Callable[[Simulation, Contact], object]
 
 Rest: TypeAlias = "Callable[[Journey], object]"
 """What happens between two legs: it may look at the run, or replace it by an equal one."""
@@ -72,7 +83,9 @@ class Journey:
         self.run = Simulation(begun, tiling=tiling, record=record)
         refuse_unless(self.run.contact is None)
         self._bounce = exactpt.Bounce(restitution=random.choice(["0", "1/2", "1"]))
-        self._speed = _size_of(scene) / (scene.end - scene.start)
+        span = scene.end - scene.start
+        self._part = span / PARTS
+        self._speed = _size_of(scene) / span
         self.moments: list[Moment] = []
         self._note()
 
@@ -104,13 +117,12 @@ class Journey:
         """Return a time after now, at most the end."""
         scene = self.run.scene
         start = self.moments[0].time
-        part = (scene.end - start) / PARTS
         _, now = self.run.now.canonical_interval()
-        parts_gone = (Fraction(now) - start) // part
-        return min(scene.end, start + part * (parts_gone + self._random.randint(1, 12)))
+        gone = (Fraction(now) - start) // self._part
+        return min(scene.end, start + self._part * (gone + self._random.randint(1, 12)))
 
     def _note(self) -> None:
-        self.moments.append(Moment(self.run.now.low, self.run.scene.bodies))
+        self.moments.append(Moment(self.run.now.low, tuple(self.run.scene.bodies)))
 
     # Responses
 
@@ -118,8 +130,7 @@ class Journey:
         """Let bodies bounce, stop or go anywhere."""
         if run.contacts > RESPONSES:
             return
-        kinds: list[Callable[[Simulation, Contact], None]]
-        kinds = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
+        kinds: list[Response] = [partial(bounce_in_doubles, self._bounce), self._go_anywhere]
         if not self._keeps_shapes:
             kinds.append(exactpt.stop)
         respond = self._go_anywhere if contact.kind == "self" else self._random.choice(kinds)
@@ -187,7 +198,7 @@ class Journey:
         for axis in (0, 1):
             shift[axis] += self._random.choice([-1, 0, 0, 1]) * Fraction(1, 4)
         vx, vy = self._velocity(), self._velocity()
-        motion = Moved([shift[0] - vx * now, vx], [shift[1] - vy * now, vy])
+        motion = Translation([shift[0] - vx * now, vx], [shift[1] - vy * now, vy])
         return body.halted(now).with_motion(motion)
 
     def _velocity(self) -> Fraction:
@@ -206,15 +217,15 @@ class Journey:
             kinds += ["turning"] if body.size > 1 and not body.angle_error else []
         kind = self._random.choice(kinds)
         if kind == "straight":
-            return rest.with_motion(Moved(x, y))
+            return rest.with_motion(Translation(x, y))
         if kind == "onward":
             return body.with_motion(exactpt.onward(body, now, (u, v)))
         if kind == "falling":  # v (t - now) (now + 1 - t), by its coefficients
-            return rest.with_motion(Moved(x, [-v * now * (now + 1), v * (2 * now + 1), -v]))
+            return rest.with_motion(Translation(x, [-v * now * (now + 1), v * (2 * now + 1), -v]))
         if kind == "there and back":
-            turn = now + Fraction(1, self._random.randint(1, 4)) / PARTS
-            back = Moved([u * (2 * turn - now), -u], [v * (2 * turn - now), -v])
-            return rest.with_motion(Pieces([(turn, Moved(x, y)), (None, back)]))
+            turn = now + self._part * self._random.randint(1, 4)
+            back = Translation([u * (2 * turn - now), -u], [v * (2 * turn - now), -v])
+            return rest.with_motion(Pieces([(turn, Translation(x, y)), (None, back)]))
         if kind == "turning":
             pivot = self._random.choice(rest.at(now))
             return rest.with_motion(Rigid([-now / 4, Fraction(1, 4)], pivot=pivot, x=x, y=y))

@@ -30,6 +30,7 @@ from fuzz.questions.pockets import pocket_scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scaled import scaled_pair, wheels
 from fuzz.questions.scenes import (
+    arc_scene,
     chevrons,
     crowded_scene,
     distant_scene,
@@ -169,6 +170,7 @@ SOURCES: Final[dict[str, Source]] = {
     "general/lanes": _lanes,
     "far/relay": relay,
     "chevrons": chevrons,
+    "far/arc": arc_scene,
     "pockets": pocket_scene,
     "tiny/corners": corner_scene,
     "far/convoy": convoy,

@@ -380,7 +380,16 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "simulation/population": Law(
         changed_run_is_a_new_scene,
-        (*MOVING, "family", "tiny/crowded", "tiny/fractions", "points", "rings", "family+awkward"),
+        (
+            *MOVING,
+            "family",
+            "tiny/crowded",
+            "tiny/fractions",
+            "points",
+            "tiny/crossing points",
+            "rings",
+            "family+awkward",
+        ),
         share=3,
         most=120,
     ),
@@ -402,9 +411,9 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "simulation/fan": Law(
         fan_events_lead_from_fan_to_fan,
-        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points"),
+        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points", "far/arc"),
         share=0.5,
-        most=40,
+        most=70,
     ),
     "simulation/stops": Law(
         stops_change_nothing,

@@ -11,7 +11,7 @@ from exactpt.motion.motions import Motion
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.rings import parts_of
 
-__all__ = ["chevrons", "crowded_scene", "distant_scene", "meeting_scene", "relay"]
+__all__ = ["arc_scene", "chevrons", "crowded_scene", "distant_scene", "meeting_scene", "relay"]
 
 Shape = list[tuple[int, int]]
 
@@ -107,6 +107,29 @@ def chevrons(random: Random) -> Scene:
         motion = Translation([0, 1 + QQ(k, 1024)], [0, QQ(random.randint(-3, 3), 1024)])
         bodies.append(Body(f"b{k}", [(k + 40, 40), (k, 0), (k + 40, -40)], motion, closed=False))
     return Scene(bodies, (0, 1))
+
+
+def arc_scene(random: Random) -> Scene:
+    """Return an arc of points, beside which two others change places time and again.
+
+    Each time the chain along the arc is walked along, until it has been made searchable. Points of
+    the arc leave it slowly.
+    """
+    size, swaps = random.choice([8, 30]), 40
+    arc = []
+    for i in range(-size, size + 1):
+        slow = Translation([0], [0, QQ(random.choice([-1, 0, 0, 1]), 10)])
+        arc.append(Body(f"a{i}", [(-i * i, 2 * i)], slow))
+    beside = 6 * size * size
+    there_and_back: list[tuple[int | None, Translation]] = []
+    for k in range(swaps):
+        x = [-1 - 2 * k, 2] if k % 2 == 0 else [1 + 2 * k, -2]
+        there_and_back.append((k + 1 if k < swaps - 1 else None, Translation(x, [0])))
+    pair = [
+        Body("p", [(beside, 3 * size)]),
+        Body("q", [(beside, -3 * size)], Pieces(there_and_back)),
+    ]
+    return Scene([*arc, *pair], (0, swaps))
 
 
 def relay(random: Random) -> Scene:

@@ -39,6 +39,8 @@ def test_hull_of_points_on_a_line_has_each_of_them(count):
     assert set(space.hull()) == {(f"p{i}", 0) for i in range(count)}
     assert space.locate((0, 0)).body == "p0"
     assert space.ray_cast((-4, -2), (2, 1)).at == 2
+    assert space.ray_cast((-4, -2), (1, 1)) is None
+    assert space.neighbours("p0") == (["p1"] if count > 1 else [])
 
 
 def test_relative_hull_of_a_point_is_the_point():

@@ -1,8 +1,10 @@
 """New motions, and bodies that come and go, by hand; the laws `simulation/population` have more."""
 
+from fractions import Fraction
+
 import pytest
 
-from exactpt import Body, InputError, Scene, Simulation, Translation
+from exactpt import Body, InputError, Scene, Simulation, Translation, onward
 from exactpt.testing import audit
 
 TILINGS = ("greedy", "lazy", "mixed")
@@ -165,6 +167,20 @@ def test_last_body_goes_and_others_come(tiling):
     assert simulation.neighbours("b") == ["c", "d"]
 
 
+def test_tiling_for_any_bodies_stays_when_the_one_that_is_not_convex_has_gone():
+    chevron = [(20, 0), (28, 0), (21, 1), (20, 8)]
+    simulation = two_boxes()
+    assert simulation.stats["why"] == "all bodies stay convex"
+
+    simulation.add(Body("chevron", chevron))
+    assert simulation.stats["why"] == "body 'chevron' need not stay convex"
+    simulation.remove("chevron")
+
+    assert simulation.stats["tiling"] == simulation.name == "mixed"
+    assert simulation.stats["why"] == "mixed is for any bodies"
+    audit(simulation)
+
+
 @pytest.mark.parametrize(
     "outline, rebuilds",
     [([(0, 0), (4, 0), (0, 4)], 0), ([(0, 0), (8, 0), (1, 1), (0, 8)], 1)],
@@ -193,6 +209,34 @@ def test_names_in_an_event_are_those_of_then(outline, rebuilds):
     assert late == at_once
     assert any("old" in str(event) for event in at_once)
     assert any("new" in str(event) for event in at_once)
+
+
+@pytest.mark.long
+def test_points_beside_a_long_arc_get_new_motions_and_are_saved(tmp_path):
+    """The chain along the arc is walked along, and searched once that has taken too long.
+
+    Two points change places beside it, and points of the arc leave it slowly.
+    """
+    logs = []
+    for is_saved in (False, True):
+        arc = [Body(f"a{i}", [(-(i * i), 2 * i)]) for i in range(-80, 81)]
+        points = [*arc, Body("p", [(40000, 100)]), Body("q", [(39999, -100)])]
+        simulation, log = Simulation(Scene(points, (0, 80))), []
+        for k in range(40):
+            log += [event.to_json() for event in simulation.run(2 * k)]
+            velocity = -2 if k % 2 else 2
+            leaving = f"a{37 * k % 161 - 80}"
+            for name, towards in (("q", (velocity, 0)), (leaving, (0, Fraction(k % 3 - 1, 400)))):
+                simulation.set_motion(name, onward(simulation.body(name), 2 * k, towards))
+            if is_saved and k % 7 == 3:
+                simulation.save(tmp_path / "run.json")
+                simulation = Simulation.restore(tmp_path / "run.json")
+        audit(simulation)
+        log += [event.to_json() for event in simulation.run()]
+        logs.append(log)
+
+    assert len(logs[0]) > 40
+    assert logs[0] == logs[1]
 
 
 # Bodies with holes
