@@ -92,3 +92,10 @@ def nearest_root_less(value: QQ, less: QQ) -> float:
         if near == nearest_float(low + unit):
             return near
         shift *= 2
+
+
+def root_above(squared: QQ) -> QQ:
+    """Return a number a little above a square root; 0 for 0."""
+    n, d = squared.numerator, squared.denominator
+    shift = max(0, BITS - (n * d).bit_length() // 2)
+    return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)

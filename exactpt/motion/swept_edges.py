@@ -116,7 +116,10 @@ class SweptEdges:
         many = many or int(relevant.sum()) + 32
         first = self._first_length(longest, places[0, relevant], places[1, relevant])
         bodies_of = bodies_of or self._bodies_of
-        held: set[int] = set()  # bodies that have been near others
+        held: set[int] = set()  # bodies that have been near others, or seem to come near them
+        if len(times) > 2:
+            held.update(self.body[relevant].tolist())
+        release = 2 * PATIENCE  # the number of slabs after which they are looked at anew
 
         def between(now: QQ, later: QQ) -> Slab:
             until = self._first_change_near_others(now, later, held)
@@ -134,8 +137,9 @@ class SweptEdges:
         for count, slab in enumerate(slabs(start, end, between, many, first, longest), 1):
             yield slab
             self._enter_pieces(slab.end)
-            if count >= PATIENCE and count & (count - 1) == 0:  # a power of two
+            if count == release:
                 held.clear()
+                release *= 4
 
     def _first_change_near_others(self, now: QQ, later: QQ, held: set[int]) -> QQ:
         """Return the first time at which the motion of a body changes that now is near another.

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final, TypeAlias, final, overload
+from typing import TypeAlias, final, overload
 
 import numpy as np
 
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt, rational, show
-from exactpt.kernel.square_root import exact_square_root
+from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, rational, show
+from exactpt.kernel.square_root import exact_square_root, root_above
 from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.candidate_pairs import candidate_pairs
@@ -28,9 +28,6 @@ from exactpt.scene.scene import Scene, a_scene, scene_of
 
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
 """The time of an approach, and the indices i < j of the bodies that are within the distance."""
-
-BITS: Final = 64
-"""Bits of an upper bound of a distance, at least."""
 
 
 @final
@@ -234,10 +231,3 @@ def _first(scene: Scene, squared: QQ) -> Near | None:
     if found is None:
         return None
     return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]
-
-
-def root_above(squared: QQ) -> QQ:
-    """Return a number a little above a square root; 0 for 0."""
-    n, d = squared.numerator, squared.denominator
-    shift = max(0, BITS - (n * d).bit_length() // 2)
-    return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)

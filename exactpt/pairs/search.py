@@ -316,7 +316,7 @@ def first_of_large(
         from exactpt.pairs.features_sweep import PairsSearch
 
         return PairsSearch(scene).first_after_start()
-    from exactpt.pairs.approach import root_above
+    from exactpt.kernel.square_root import root_above
     from exactpt.pairs.approach_search import ApproachSearch
 
     squared, half = distance.squared, root_above(distance.squared) / 2

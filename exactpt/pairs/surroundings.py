@@ -10,7 +10,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, shorten
-from exactpt.pairs.approach import root_above
+from exactpt.kernel.square_root import root_above
 from exactpt.pairs.approach import time_within_of_two as time_within
 from exactpt.pairs.candidate_pairs import candidate_pairs
 from exactpt.pairs.clearance import (
