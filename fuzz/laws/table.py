@@ -249,7 +249,7 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "distance/surroundings": Law(
         surroundings_are_of_each_pair,
-        ("tiny/crowded", "tiny/fractions", "family", "tiny/crowded+awkward", "radii"),
+        ("tiny/crowded", "radii", "tiny/fractions", "family", "tiny/crowded+awkward", "radii"),
         share=0.5,
         most=30,
     ),

@@ -6,6 +6,7 @@ import math
 from random import Random
 
 from exactpt import Body, InputError, Scene, Translation
+from exactpt.motion.shape import VertexLike
 
 __all__ = ["crossed_pair"]
 
@@ -22,7 +23,7 @@ def crossed_pair(random: Random) -> Scene:
 
 def _deforming(random: Random) -> Body:
     while True:
-        ring: list[dict[str, list[int | str]]] = []
+        ring: list[VertexLike] = []
         for k in range(random.randint(3, 6)):
             angle, far = math.pi * k / 3 + random.random(), random.randint(1, 3)
             x, y = round(far * math.cos(angle), 1), round(far * math.sin(angle), 1)

@@ -12,7 +12,6 @@ from random import Random
 from typing import Final
 
 from exactpt import Body, Pieces, Rigid, Scene, Translation
-from exactpt.motion.motions import SimpleMotion
 
 __all__ = ["planks", "walkers"]
 
@@ -36,7 +35,7 @@ def walkers(random: Random) -> Scene:
 
 def _walker(name: str, random: Random) -> Body:
     x, y, now = random.randint(-12, 12), random.randint(-12, 12), 0
-    pieces: list[tuple[int | None, SimpleMotion]] = []
+    pieces: list[tuple[int | None, Translation]] = []
     for _ in range(PIECES - 1):
         until = now + random.randint(1, 9)
         u, v = random.randint(-3, 3), random.randint(-3, 3)
