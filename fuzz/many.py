@@ -75,11 +75,12 @@ def _lattice_motion(random: Random) -> Translation:
 
 
 def round_bodies(random: Random) -> Scene:
-    """Three outlines of up to 97 vertices, with ties of x, of slopes, and flat vertices."""
+    """Outlines of up to 97 vertices, with ties of x, of slopes, flat vertices; and a small body."""
     shapes = [
         _round(random, random.choice([3, 13, 40, 97]), (0, 0), 4),
         _with_stops(random.choice([1, 4, 9]), 12, random.randint(-6, 6), 5),
         _symmetric(64, (3, 14), 5),
+        _small(random, (12, 14)),
     ]
     bodies = []
     for i, shape in enumerate(shapes):
@@ -184,6 +185,12 @@ def _round(random: Random, size: int, center: tuple[int, int], radius: int) -> O
         (Fraction(center[0] + radius * cos(a)), Fraction(center[1] + squeeze * radius * sin(a)))
         for a in angles
     ]
+
+
+def _small(random: Random, place: tuple[int, int]) -> Outline:
+    """Return a point, a segment or a triangle."""
+    x, y = Fraction(place[0]), Fraction(place[1] + random.randint(0, 3))
+    return [(x, y), (x + 2, y + 1), (x, y + 2)][: random.randint(1, 3)]
 
 
 def _symmetric(size: int, center: tuple[int, int], radius: int) -> Outline:
