@@ -120,13 +120,15 @@ def _beside_arc(size: int, swaps: int) -> Scene:
 def doubles(random: Random) -> Scene:
     """Triangles of doubles of either orientation, with an upright side, some of them at rest.
 
-    Sometimes one is in free fall, so that not all of them are in linear motion.
+    Sometimes one is in free fall, so that not all of them are in linear motion. Sometimes there are
+    so many that the mesh is made in numpy, in a short time span.
     """
+    side = random.choice([5, 5, 5, 10])
     unit = 2.0 ** random.choice([0, 0, -40, 40, 90, 1000])
     fall = random.choice([[], [], [-0.25]])
     bodies = []
-    for i in range(25):
-        x, y = 40.0 * (i % 5) + random.uniform(-9, 9), 40.0 * (i // 5) + random.uniform(-9, 9)
+    for i in range(side * side):
+        x, y = (40.0 * k + random.uniform(-9, 9) for k in divmod(i, side))
         corners = [(x, y), (x + random.uniform(1, 5), y), (x, y + 3.5)]
         if random.random() < 0.5:
             corners.reverse()
@@ -135,7 +137,8 @@ def doubles(random: Random) -> Scene:
         motion = Translation([c * unit for c in speed], [c * unit for c in rise])
         bodies.append(Body(f"b{i}", [(a * unit, b * unit) for a, b in corners], motion))
     start = random.choice([Fraction(0), Fraction(1, 3)])
-    return Scene(bodies, (start, start + random.choice([1, 4])))
+    span = random.choice([1, 4]) if side == 5 else Fraction(1, 16)
+    return Scene(bodies, (start, start + span))
 
 
 KINDS: Final[tuple[Callable[[Random], Scene], ...]] = (
