@@ -75,11 +75,12 @@ def _lattice_motion(random: Random) -> Translation:
 
 
 def round_bodies(random: Random) -> Scene:
-    """Three outlines of up to 97 vertices, with ties of x, of slopes, and flat vertices."""
+    """Outlines of up to 97 vertices, with ties of x, of slopes, flat vertices; and a small body."""
     shapes = [
         _round(random, random.choice([3, 13, 40, 97]), (0, 0), 4),
         _with_stops(random.choice([1, 4, 9]), 12, random.randint(-6, 6), 5),
         _symmetric(64, (3, 14), 5),
+        _small(random, (12, 14)),
     ]
     bodies = []
     for i, shape in enumerate(shapes):
@@ -119,13 +120,15 @@ def _beside_arc(size: int, swaps: int) -> Scene:
 def doubles(random: Random) -> Scene:
     """Triangles of doubles of either orientation, with an upright side, some of them at rest.
 
-    Sometimes one is in free fall, so that not all of them are in linear motion.
+    Sometimes one is in free fall, so that not all of them are in linear motion. Sometimes there are
+    so many that the mesh is made in numpy, in a short time span.
     """
+    side = random.choice([5, 5, 5, 10])
     unit = 2.0 ** random.choice([0, 0, -40, 40, 90, 1000])
     fall = random.choice([[], [], [-0.25]])
     bodies = []
-    for i in range(25):
-        x, y = 40.0 * (i % 5) + random.uniform(-9, 9), 40.0 * (i // 5) + random.uniform(-9, 9)
+    for i in range(side * side):
+        x, y = (40.0 * k + random.uniform(-9, 9) for k in divmod(i, side))
         corners = [(x, y), (x + random.uniform(1, 5), y), (x, y + 3.5)]
         if random.random() < 0.5:
             corners.reverse()
@@ -134,7 +137,8 @@ def doubles(random: Random) -> Scene:
         motion = Translation([c * unit for c in speed], [c * unit for c in rise])
         bodies.append(Body(f"b{i}", [(a * unit, b * unit) for a, b in corners], motion))
     start = random.choice([Fraction(0), Fraction(1, 3)])
-    return Scene(bodies, (start, start + random.choice([1, 4])))
+    span = random.choice([1, 4]) if side == 5 else Fraction(1, 16)
+    return Scene(bodies, (start, start + span))
 
 
 KINDS: Final[tuple[Callable[[Random], Scene], ...]] = (
@@ -184,6 +188,12 @@ def _round(random: Random, size: int, center: tuple[int, int], radius: int) -> O
         (Fraction(center[0] + radius * cos(a)), Fraction(center[1] + squeeze * radius * sin(a)))
         for a in angles
     ]
+
+
+def _small(random: Random, place: tuple[int, int]) -> Outline:
+    """Return a point, a segment or a triangle."""
+    x, y = Fraction(place[0]), Fraction(place[1] + random.randint(0, 3))
+    return [(x, y), (x + 2, y + 1), (x, y + 2)][: random.randint(1, 3)]
 
 
 def _symmetric(size: int, center: tuple[int, int], radius: int) -> Outline:
