@@ -6,6 +6,7 @@ import copy
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import islice
+from math import isqrt
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -46,6 +47,9 @@ ACTIONS: Final = 12
 
 BOUNCES: Final = 4
 """Number of contacts until a run that bounces is left."""
+
+GRID: Final = Fraction(1, 2**20)
+"""The grid of velocities of a `Bounce`."""
 
 STOPS: Final = 12
 """Number of stops on the way of a run."""
@@ -157,7 +161,7 @@ def _check_reasons(run: Simulation, *, exact_only: bool) -> None:
 def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     """Each contact of a run that bounces is the first one of what was planned, by all pairs.
 
-    Two bodies that only translate always separate.
+    Two bodies that only translate always separate. No bounce changes the momentum.
     """
     tiling = a_tiling(scene, random)
     run = Simulation(scene, tiling=tiling)
@@ -171,7 +175,9 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
         contacts += 1
         expected = reference.first_contact(planned)
         check_equal("contact", plain_contact(contact), expected)
+        before = bounce.momentum(simulation)
         bounce_in_doubles(bounce, simulation, contact)
+        _check_momentum(before, bounce, simulation)
         planned = _from_now_on(simulation)
 
     for _ in run.run(on_contact=respond):
@@ -180,6 +186,18 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     if len(scene.bodies) == 2 and all(map(_only_translates, scene.bodies)):
         check_equal("contact that ends the run", run.contact, None)
     return f"{tiling}, {contacts} contacts"
+
+
+def _check_momentum(
+    before: tuple[Fraction, Fraction], bounce: exactpt.Bounce, run: Simulation
+) -> None:
+    """Check that a bounce has changed the momentum by rounding only, to doubles and to the grid."""
+    after, energy = bounce.momentum(run), bounce.kinetic_energy(run)
+    largest = isqrt(int(2 * energy)) + 1  # no velocity is larger
+    rounding = len(run.scene.bodies) * (GRID + largest * Fraction(1, 2**40))
+    for p, q in zip(before, after, strict=True):
+        if abs(p - q) > rounding:
+            raise Difference("momentum", f"{float(p)!r} became {float(q)!r}")
 
 
 def bounce_in_doubles(bounce: exactpt.Bounce, run: Simulation, contact: Contact) -> None:
