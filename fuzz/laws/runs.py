@@ -6,6 +6,7 @@ import copy
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import islice
+from math import isqrt
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -46,6 +47,12 @@ ACTIONS: Final = 12
 
 BOUNCES: Final = 4
 """Number of contacts until a run that bounces is left."""
+
+SLOWEST: Final = 1 / 16
+"""Least speed of separation after a `Bounce`."""
+
+GRID: Final = Fraction(1, 2**20)
+"""The grid of velocities of a `Bounce`."""
 
 STOPS: Final = 12
 """Number of stops on the way of a run."""
@@ -157,12 +164,14 @@ def _check_reasons(run: Simulation, *, exact_only: bool) -> None:
 def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     """Each contact of a run that bounces is the first one of what was planned, by all pairs.
 
-    Two bodies that only translate always separate.
+    Two bodies that only translate always separate. No bounce changes the momentum, and the
+    restitution is the ratio of the speeds along the normal.
     """
     tiling = a_tiling(scene, random)
     run = Simulation(scene, tiling=tiling)
     refuse_unless(run.contact is None)
-    bounce = exactpt.Bounce(restitution=random.choice(["0", "1/2", "1"]))
+    restitution = random.choice([0.0, 0.5, 1.0])
+    bounce = exactpt.Bounce(restitution=restitution)
     planned = scene
     contacts = 0
 
@@ -171,7 +180,11 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
         contacts += 1
         expected = reference.first_contact(planned)
         check_equal("contact", plain_contact(contact), expected)
+        before, approach = bounce.momentum(simulation), _normal_speed(simulation, contact)
         bounce_in_doubles(bounce, simulation, contact)
+        _check_momentum(before, bounce, simulation)
+        if approach is not None:
+            _check_restitution(approach, _normal_speed(simulation, contact), restitution)
         planned = _from_now_on(simulation)
 
     for _ in run.run(on_contact=respond):
@@ -180,6 +193,37 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
     if len(scene.bodies) == 2 and all(map(_only_translates, scene.bodies)):
         check_equal("contact that ends the run", run.contact, None)
     return f"{tiling}, {contacts} contacts"
+
+
+def _normal_speed(run: Simulation, contact: Contact) -> float | None:
+    """Return the speed along the normal of two bodies that only translate, and touch at an edge."""
+    if len(contact.pairs) != 1 or contact.pairs[0].edge is None:
+        return None
+    (pair,) = contact.pairs
+    a, b = run.body(pair.body), run.body(pair.other)
+    if pair.normal is None or not (_only_translates(a) and _only_translates(b)):
+        return None
+    (u, v), (w, z) = (body.velocity_at(run.now.low)[0] for body in (a, b))
+    return abs(pair.normal[0] * float(u - w) + pair.normal[1] * float(v - z))
+
+
+def _check_restitution(approach: float, parting: float | None, restitution: float) -> None:
+    """Check the speed at which two bodies separate: at least `SLOWEST`, but for rounding."""
+    expected = max(restitution * approach, SLOWEST)
+    if parting is not None and abs(parting - expected) > 1e-5 * (1 + approach):
+        raise Difference("restitution", f"{approach} became {parting}, expected {expected}")
+
+
+def _check_momentum(
+    before: tuple[Fraction, Fraction], bounce: exactpt.Bounce, run: Simulation
+) -> None:
+    """Check that a bounce has changed the momentum by rounding only, to doubles and to the grid."""
+    after, energy = bounce.momentum(run), bounce.kinetic_energy(run)
+    largest = isqrt(int(2 * energy)) + 1  # no velocity is larger
+    rounding = len(run.scene.bodies) * (GRID + largest * Fraction(1, 2**40))
+    for p, q in zip(before, after, strict=True):
+        if abs(p - q) > rounding:
+            raise Difference("momentum", f"{float(p)!r} became {float(q)!r}")
 
 
 def bounce_in_doubles(bounce: exactpt.Bounce, run: Simulation, contact: Contact) -> None:
