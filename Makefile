@@ -12,8 +12,8 @@ SEED := $(subst -,,$(DATE))
 MINUTES ?= 40
 TOOLS ?= fuzz benchmarks .ci
 LOWEST := $(VENV)/lowest
-COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling collision simulation))
-PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling pairs collision arrays query))
+COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling search simulation))
+PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling search arrays query))
 
 # $(call install,BIN,WHAT): what may name dependency groups, which pip has known since 25.1
 define install

@@ -16,10 +16,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from exactpt import AlgebraicNumber, InputError
+from exactpt.certificates import first_root as filters
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
 from exactpt.cgal import CgalCheck, find_program
-from exactpt.kernel import filters
 
 EXAMPLES = {"dev": 50, "ci": 50, "quick": 25, "night": 500}
 SAME_IN_EACH_RUN = {"ci", "quick"}

@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 from benchmarks.output import Output, Row
 from benchmarks.timing import exponent
 from exactpt import Body, Rigid, Scene, Translation
-from exactpt.collision.driver import Driver
+from exactpt.tiling.driver import Driver
 
 __all__ = ["FULL", "QUICK", "Family", "changes", "run"]
 

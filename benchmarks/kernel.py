@@ -20,9 +20,10 @@ from benchmarks.plots import series_of
 from benchmarks.root_finders import END, EXACT, FILTER, FINDERS, Finder, exact_first
 from benchmarks.timing import microseconds
 from exactpt import AlgebraicNumber, AuditError, Body, Translation
+from exactpt.certificates import first_root as filters
 from exactpt.certificates.certifier import Certifier
 from exactpt.indices import VertexId
-from exactpt.kernel import filters, vectorized
+from exactpt.kernel import vectorized
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after

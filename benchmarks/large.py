@@ -22,7 +22,7 @@ import numpy as np
 from benchmarks.output import Output, Row
 from benchmarks.timing import per_event, resident
 from exactpt import Bounce, Contact, Scene, Simulation
-from exactpt.collision.driver import NOTHING, Driver
+from exactpt.tiling.driver import NOTHING, Driver
 
 __all__ = ["FULL", "QUICK", "Sizes", "crowd", "figures", "run"]
 

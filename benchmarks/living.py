@@ -16,7 +16,7 @@ from benchmarks.output import Output, Row
 from exactpt import AuditError, Body, Bounce, Contact, Scene, Simulation, Translation, onward
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.start import initial_touches
 from exactpt.testing.scenes.shapes import cells, convex_polygon
 from exactpt.tiling.tiling import Tiling
 

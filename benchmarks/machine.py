@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from benchmarks.peers import PEERS
-from exactpt.kernel import filters
+from exactpt.certificates import first_root as filters
 
 __all__ = ["is_compiled", "machine"]
 

@@ -18,8 +18,8 @@ from benchmarks.plots import series_of
 from benchmarks.point_scenes import FAMILIES, random_linear, swaps_beside_arc
 from benchmarks.timing import exponent, memory_of, per_event, timed
 from exactpt.certificates.certifier import Certifier
-from exactpt.collision.driver import Driver
 from exactpt.scene.scene import Scene
+from exactpt.tiling.driver import Driver
 from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.start import plan_tiling

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, final
 
-from exactpt.kernel import filters
+from exactpt.certificates import first_root as filters
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ

@@ -19,8 +19,8 @@ from benchmarks.plots import series_of
 from benchmarks.shapes import TANGLES, TangleFamily, crowd, tangle
 from benchmarks.timing import exponent, memory_of, per_event, timed
 from exactpt import Scene, Simulation
-from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
+from exactpt.tiling.driver import Driver
 from exactpt.tiling.start import TILINGS, start_tiling
 from exactpt.tiling.tiling import Tiling
 

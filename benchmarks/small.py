@@ -17,14 +17,14 @@ from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import Method, UnsuitableScene, error_of
 from benchmarks.output import Output, Row
 from benchmarks.timing import beside, time_of, timed
-from exactpt.collision.detector import first_contact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.planner import Planner
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.search.first import first_contact
+from exactpt.search.planner import Planner
 from exactpt.testing import reference
 from exactpt.testing.reference import FirstContact
 

@@ -16,7 +16,6 @@ from typing import Final, NamedTuple, TypeVar
 from benchmarks.output import Output, Row
 from benchmarks.plots import series_of
 from benchmarks.timing import timed
-from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -25,8 +24,9 @@ from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.track import track
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.search.first import first_contact
 from exactpt.testing.scenes.shapes import cells, convex_polygon, poly
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

@@ -15,7 +15,7 @@ from benchmarks.shapes import crowd
 from benchmarks.timing import fastest, near, time_of
 from exactpt import Approach, AuditError, Body, Scene, Translation, first_contact, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.approach_search import ApproachSearch
+from exactpt.search.approach_search import ApproachSearch
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     __compiled__: bool
     from exactpt import arrays as arrays
     from exactpt import batch as batch
-    from exactpt.collision.detector import first_contact
-    from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
     from exactpt.errors import (
         AuditError,
         BudgetExceeded,
@@ -39,13 +37,8 @@ if TYPE_CHECKING:
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
     from exactpt.motion.pose_path import PosePath
     from exactpt.motion.spin import Spin
-    from exactpt.pairs.approach import Approach, first_within
-    from exactpt.pairs.clearance import Clearance
-    from exactpt.pairs.contact import Contact, ContactPoint
-    from exactpt.pairs.distance import Distance, distance
-    from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
-    from exactpt.pairs.planner import Planner
-    from exactpt.pairs.surroundings import Surroundings, clearance
+    from exactpt.pair.contact import Contact, ContactPoint
+    from exactpt.pair.distance import Distance, distance
     from exactpt.proof.certified import certify
     from exactpt.proof.written import Proof, prove
     from exactpt.query.answers import Hit, Place, ShortestPath
@@ -53,6 +46,13 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.scene.union import union
     from exactpt.scene.units import Units
+    from exactpt.search.clearance import Clearance
+    from exactpt.search.enclosed import EnclosedContact, first_contact_enclosed
+    from exactpt.search.first import first_contact
+    from exactpt.search.intervals import ContactInterval, contact_intervals, contacts
+    from exactpt.search.planner import Planner
+    from exactpt.search.surroundings import Surroundings, clearance
+    from exactpt.search.within import Approach, first_within
     from exactpt.simulation.event import RunEvent
     from exactpt.simulation.history import History
     from exactpt.simulation.motion_changes import onward
@@ -121,11 +121,11 @@ __all__ = [
 ]
 
 _MODULES: Final = {
-    "exactpt.pairs.approach": ("Approach", "first_within"),
-    "exactpt.pairs.contact": ("Contact", "ContactPoint"),
-    "exactpt.collision.detector": ("first_contact",),
-    "exactpt.collision.enclosed": ("EnclosedContact", "first_contact_enclosed"),
-    "exactpt.pairs.planner": ("Planner",),
+    "exactpt.search.within": ("Approach", "first_within"),
+    "exactpt.pair.contact": ("Contact", "ContactPoint"),
+    "exactpt.search.first": ("first_contact",),
+    "exactpt.search.enclosed": ("EnclosedContact", "first_contact_enclosed"),
+    "exactpt.search.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
@@ -145,10 +145,10 @@ _MODULES: Final = {
     "exactpt.motion.spin": ("Spin",),
     "exactpt.proof.certified": ("certify",),
     "exactpt.proof.written": ("Proof", "prove"),
-    "exactpt.pairs.clearance": ("Clearance",),
-    "exactpt.pairs.surroundings": ("Surroundings", "clearance"),
-    "exactpt.pairs.distance": ("Distance", "distance"),
-    "exactpt.pairs.intervals": ("ContactInterval", "contact_intervals", "contacts"),
+    "exactpt.search.clearance": ("Clearance",),
+    "exactpt.search.surroundings": ("Surroundings", "clearance"),
+    "exactpt.pair.distance": ("Distance", "distance"),
+    "exactpt.search.intervals": ("ContactInterval", "contact_intervals", "contacts"),
     "exactpt.query.answers": ("Hit", "Place", "ShortestPath"),
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),

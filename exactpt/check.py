@@ -16,17 +16,17 @@ from typing import final
 
 from exactpt.brief import record_in_brief
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
-from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.driver import EVENTS, Driver, Observer
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import deadline_in
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pair.comparison import contrast, in_words
 from exactpt.proof.emit import ProofRun
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import scene_bytes
+from exactpt.search.features_sweep import PairsSearch
+from exactpt.tiling.driver import EVENTS, Driver, Observer
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling

@@ -19,7 +19,7 @@ from random import Random
 
 import exactpt
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.start import initial_touches
 from exactpt.simulation.motion_changes import translation_at
 from exactpt.simulation.responses import Bounce
 

@@ -16,7 +16,8 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from exactpt.kernel import filters, vectorized
+from exactpt.certificates import first_root as filters
+from exactpt.kernel import vectorized
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, primitive, sign_at, trimmed
 from exactpt.kernel.numbers import (

@@ -17,22 +17,24 @@ from unittest.mock import patch
 from exactpt import AlgebraicNumber
 from exactpt.arrays import radii, turning
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
+from exactpt.certificates import first_root as filters
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
-from exactpt.collision import driver
 from exactpt.indices import CertificateId, HalfEdge
-from exactpt.kernel import filters, roots
+from exactpt.kernel import roots
 from exactpt.kernel.integer_polynomial import negate
 from exactpt.motion import track
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.track import Track
-from exactpt.pairs import boxes, clearance, near_features, search
-from exactpt.pairs.boxes import PieceBoxes
-from exactpt.pairs.search import LinearSearch
+from exactpt.pair import near_features
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
-from exactpt.tiling import engine
+from exactpt.search import boxes, clearance
+from exactpt.search import linear as search
+from exactpt.search.boxes import PieceBoxes
+from exactpt.search.linear import LinearSearch
+from exactpt.tiling import driver, engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules

@@ -25,10 +25,10 @@ from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.perturbation import cross, orientation_polynomial, x_order, x_order_terms
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.queue import EventTime
+from exactpt.filters.rounding import INFINITY
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.motions import Motion
 from exactpt.motion.track import difference
 from exactpt.motion.track import orientation_polynomial as orientation_of_tracks

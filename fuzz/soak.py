@@ -25,8 +25,8 @@ from exactpt.kernel import budget
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.contact import Contact
+from exactpt.pair.start import initial_touches
 from exactpt.proof.written import write_proof
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json

@@ -7,9 +7,9 @@ from typing import Final, TypeAlias
 
 from exactpt import Contact, Scene, Simulation, first_contact, proof_check, proof_scene, prove
 from exactpt.check import check_run
-from exactpt.collision.comparison import in_words
-from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pair.comparison import in_words
 from exactpt.scene.groups import is_tileable
+from exactpt.search.features_sweep import PairsSearch
 from exactpt.testing import reference as defined
 from exactpt.testing.agreement import disagreement
 from exactpt.testing.audits import run_and_audit

@@ -13,7 +13,7 @@ from benchmarks.plots import draw_lines, draw_shares, series_of
 from benchmarks.shapes import crowd
 from benchmarks.tests.bench_help import Results
 from benchmarks.timing import exponent, memory_of, microseconds, timed
-from exactpt.collision.driver import Driver
+from exactpt.tiling.driver import Driver
 from exactpt.tiling.start import start_tiling
 
 

@@ -13,8 +13,8 @@ from click.testing import CliRunner
 
 from docs.make_page import PAGE, write
 from exactpt.cli import browser, cli
-from exactpt.collision.detector import METHODS
 from exactpt.errors import AuditError
+from exactpt.search.first import METHODS
 from exactpt.tiling import catalogue
 
 ROOT = Path(__file__).parents[2]

@@ -18,10 +18,10 @@ from exactpt.arrays.sharpening import sharpened
 from exactpt.arrays.spans import Spans
 from exactpt.arrays.starts import at_start
 from exactpt.arrays.undecided import decide, search
+from exactpt.filters.rounding import SLACK, U
 from exactpt.geometry.ragged import ranges
 from exactpt.kernel.doubles import Flags, Floats, Indices, native
-from exactpt.kernel.rounding import SLACK, U
-from exactpt.pairs.rational import Candidate
+from exactpt.pair.straight import Candidate
 from exactpt.scene.body_arrays import BodyArrays
 
 CHUNK: Final = 1 << 14

@@ -11,12 +11,12 @@ from exactpt.arrays.motions import Motions
 from exactpt.arrays.outlines import Outlines
 from exactpt.arrays.relative import Relative
 from exactpt.arrays.sharpening import ExactRelative, Plane2
+from exactpt.filters.rounding import SLACK, U
 from exactpt.geometry.ragged import spread
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.kernel.rounding import SLACK, U
 from exactpt.motion.track import Incidence
-from exactpt.pairs.rational import Candidate
+from exactpt.pair.straight import Candidate
 
 
 class Candidates(NamedTuple):

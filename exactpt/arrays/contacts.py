@@ -13,10 +13,10 @@ from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import shorten
-from exactpt.pairs.search import pair_search
+from exactpt.search.linear import pair_search
 
 if TYPE_CHECKING:
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
 
 KINDS: Final = ("none", "initial", "self", "vertex-edge", "vertex-vertex")

@@ -8,8 +8,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.kernel.doubles import Flags, Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.kernel.vectorized import Answers, linears, quadratics
 
 INFINITY: Final = np.inf
@@ -46,9 +46,9 @@ def first_incidences(r: Relative, span: Span, reach: Floats | None = None) -> In
     farther apart at the start, the first times at which the vertex is at this distance from the
     edge, its foot on it. A vertex is at that distance from the line where the orientation f is
     -h or h, h = R |u|. Where f is linear, only the smaller of the two roots may be a first contact
-    (`exactpt.pairs.filters`): that of f + sgn(c1) h; where the sign of c1 is not known, that of
-    the side of the strip -h <= f <= h next to which f is at the start. R, |u| and their product
-    are off by at most 5 U of h, and by `TINY` |u| if R is not normal, the sum with c0 by
+    (`exactpt.search.straight_filter`): that of f + sgn(c1) h; where the sign of c1 is not known,
+    that of the side of the strip -h <= f <= h next to which f is at the start. R, |u| and their
+    product are off by at most 5 U of h, and by `TINY` |u| if R is not normal, the sum with c0 by
     U (|c0| + h).
     """
     cs = orientations(r)

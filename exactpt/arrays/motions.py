@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from exactpt.arrays.spans import Spans
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 
 class Motions(NamedTuple):

@@ -15,15 +15,15 @@ from exactpt.arrays.relative import Relative, orientations
 from exactpt.arrays.sharpening import ExactRelative, sharpened
 from exactpt.arrays.spans import Spans, read_spans
 from exactpt.errors import InputError
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Flags, Floats, Indices, doubles, finite_rows
 from exactpt.kernel.numbers import QQ, of_double, show
-from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.track import Incidence, coincide, lies_on, translated
-from exactpt.pairs.features import FeaturePair
-from exactpt.pairs.rational import Earliest
+from exactpt.pair.features import FeaturePair
+from exactpt.pair.straight import Earliest
 from exactpt.scene.scene import Scene
 
 CHUNK: Final = 1 << 14

@@ -19,8 +19,8 @@ from exactpt.arrays.incidence_times import INFINITY, IncidenceTimes
 from exactpt.arrays.motions import Motions
 from exactpt.arrays.outlines import Outlines
 from exactpt.arrays.relative import Coefficient
+from exactpt.filters.rounding import SLACK, SMALL, TINY, U
 from exactpt.kernel.doubles import Floats, Indices, native
-from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.kernel.vectorized import quadratics
 
 K: Final = 16.0 * U

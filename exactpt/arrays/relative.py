@@ -11,8 +11,8 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.kernel.doubles import Flags, Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 K: Final = 8.0 * U
 """Relative bound on the rounding of a coefficient of an orientation: see `orientations`."""

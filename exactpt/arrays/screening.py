@@ -12,8 +12,8 @@ from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.spans import read_spans
 from exactpt.arrays.turning import record_turning
+from exactpt.filters.rounding import SLACK, U
 from exactpt.kernel.doubles import Floats
-from exactpt.kernel.rounding import SLACK, U
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 

@@ -7,9 +7,9 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 
 from exactpt.arrays.relative import Coefficient
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.kernel.double_double import Double2, add2, exact_sum, multiply2
 from exactpt.kernel.doubles import Floats
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 Plane2: TypeAlias = tuple[Double2, Double2]
 

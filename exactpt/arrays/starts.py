@@ -10,9 +10,9 @@ from exactpt.arrays.candidates import shifted
 from exactpt.arrays.motions import Motions
 from exactpt.arrays.outlines import Outlines
 from exactpt.arrays.radii import core_distances
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.geometry.ragged import ranges, segments_meet, spread
 from exactpt.kernel.doubles import Flags, Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 CHUNK: Final = 1 << 14
 """Maximum number of pairs of edges in a chunk."""

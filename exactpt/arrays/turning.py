@@ -38,10 +38,10 @@ from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import Outlines, outlines_of
 from exactpt.arrays.spans import Spans
 from exactpt.arrays.starts import at_start
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.geometry.ragged import ranges
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Flags, Floats, Indices, native
-from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.scene.body_arrays import BodyArrays
 
 Complex = NDArray[np.complex128]

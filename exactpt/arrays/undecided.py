@@ -10,9 +10,9 @@ from exactpt.arrays.contacts import Contacts
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.outline import straight_pieces
 from exactpt.motion.track import renumbered
-from exactpt.pairs.rational import Candidate, first_incidence, span_of
-from exactpt.pairs.search import first_at_distance, pair_search
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.start import initial_touches
+from exactpt.pair.straight import Candidate, first_incidence, span_of
+from exactpt.search.linear import first_at_distance, pair_search
 
 MOST: Final = 64
 """Maximum number of candidates that are decided here; with more, the search is faster."""

@@ -11,8 +11,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, finite, nearest_float, of_double
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.track import Incidence
-from exactpt.pairs.contact import contact_of
-from exactpt.pairs.features import FeaturePair
+from exactpt.pair.contact import contact_of
+from exactpt.pair.features import FeaturePair
 from exactpt.scene.scene import Scene
 
 Answer = dict[str, object]
@@ -109,7 +109,7 @@ def _start(axis: Sequence[Raw]) -> Vector:
 def _normal(ux: QQ, uy: QQ, slope: QQ) -> list[float]:
     """Return the unit normal of an edge to the side from which the vertex comes.
 
-    As `exactpt.pairs.contact` rounds it: coordinates of the edge are scaled by a power of
+    As `exactpt.pair.contact` rounds it: coordinates of the edge are scaled by a power of
     two there, which cancels unless one becomes tiny.
     """
     x, y = nearest_float(ux), nearest_float(uy)

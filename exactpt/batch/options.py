@@ -7,17 +7,16 @@ from dataclasses import dataclass
 from typing import Final, final
 
 from exactpt.brief import record_in_brief
-from exactpt.collision.detector import first_contact
-from exactpt.collision.searches import ContactQuery, refuse_conflicts
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
 from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational, rational
-from exactpt.pairs.approach import first_within
-from exactpt.pairs.intervals import contacts
-from exactpt.pairs.selection import pairs_given
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene
+from exactpt.search.first import ContactQuery, first_contact, refuse_conflicts
+from exactpt.search.intervals import contacts
+from exactpt.search.query import pairs_given
+from exactpt.search.within import first_within
 
 NOTHING: Final = Scene([])
 """A scene for which any options have a result, unless they exclude each other."""

@@ -28,16 +28,16 @@ from exactpt.certificates.perturbation import (
 from exactpt.certificates.positions import K, cross_sign, positions_at
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.reasons import reason
+from exactpt.filters.error_free import NOT_EXACT
+from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Floats, Indices, items
-from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
-from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import Vertices
 

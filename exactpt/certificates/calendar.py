@@ -11,7 +11,7 @@ from librt.vecs import append, vec
 from mypy_extensions import i32, i64
 
 from exactpt.certificates.certificate import KIND_COUNT
-from exactpt.kernel.rounding import INFINITY
+from exactpt.filters.rounding import INFINITY
 
 DAYS: Final[int] = 1000
 """Maximum number of days: their lists are in a processor's cache together."""

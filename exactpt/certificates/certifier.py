@@ -20,13 +20,13 @@ from exactpt.certificates.positions import Positions
 from exactpt.certificates.queue import EventTime, earlier
 from exactpt.certificates.reasons import reason
 from exactpt.certificates.rigidity import keeps_x_order, rigid
+from exactpt.filters.rounding import INFINITY, UNSURE, Answer
 from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.kernel.rounding import INFINITY, UNSURE, Answer
 from exactpt.motion.track import difference
 from exactpt.motion.track import orientation_polynomial as base_orientation
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH

@@ -14,8 +14,8 @@ from librt.vecs import vec
 from mypy_extensions import i64
 
 from exactpt.certificates import cubics, turning
-from exactpt.kernel import filters
-from exactpt.kernel.rounding import U
+from exactpt.certificates import first_root as filters
+from exactpt.filters.rounding import U
 from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.vertices import MOTION
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exactpt.certificates.reasons import reason
+from exactpt.filters.rounding import U
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
-from exactpt.kernel.rounding import U
 from exactpt.motion import track
 from exactpt.motion.track import difference
 

@@ -14,9 +14,9 @@ from __future__ import annotations
 
 from typing import Final
 
-from exactpt.kernel import filters
-from exactpt.kernel.rounding import SLACK, Answer, U
-from exactpt.kernel.sextics import sextic
+from exactpt.certificates import first_root as filters
+from exactpt.certificates.sextics import sextic
+from exactpt.filters.rounding import SLACK, Answer, U
 from exactpt.motion.float_track import FloatTrack
 
 K: Final = 8.0 * U

@@ -2,7 +2,7 @@
 
 At the time 0 of a scene of integers, or of doubles, in linear motion, the doubles are the
 positions themselves. Computations without rounding are exact, zeros included
-(`exactpt.kernel.error_free`): there, most undecided cases of a filter are ties.
+(`exactpt.filters.error_free`): there, most undecided cases of a filter are ties.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import final
 from librt.vecs import vec
 
 from exactpt.certificates.coefficients import K
+from exactpt.filters.error_free import NOT_EXACT, exact_cross_sign, is_exact_product, is_exact_sum
 from exactpt.indices import VertexId
-from exactpt.kernel.error_free import NOT_EXACT, exact_cross_sign, is_exact_product, is_exact_sum
 from exactpt.motion.vertices import WIDTH, Vertices
 
 

@@ -14,12 +14,12 @@ from mypy_extensions import i64
 
 from exactpt.certificates.queue import EventQueue, EventTime
 from exactpt.errors import InputError
+from exactpt.filters.rounding import check_rounding
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.kernel.rounding import check_rounding
 
 
 @final

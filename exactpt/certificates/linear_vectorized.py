@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 
 from exactpt.certificates.coefficients import K
+from exactpt.filters.rounding import SLACK
 from exactpt.indices import VertexId
 from exactpt.kernel.doubles import Floats, Indices, view
-from exactpt.kernel.rounding import SLACK
 from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 

@@ -6,9 +6,9 @@ from typing import Final, final
 
 import numpy as np
 
+from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.indices import VertexId
 from exactpt.kernel.doubles import Floats, view
-from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.float_track import FloatTrack
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices

@@ -15,12 +15,12 @@ from mypy_extensions import i32, i64, mypyc_attr
 
 from exactpt.certificates.calendar import Calendar
 from exactpt.certificates.certificate import ANGLE, KIND_COUNT
+from exactpt.filters.rounding import INFINITY
 from exactpt.indices import CertificateId, HalfEdge, Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Floats, Indices, items
 from exactpt.kernel.integer_polynomial import IntPoly
-from exactpt.kernel.rounding import INFINITY
 
 NO_CERTIFICATE: Final = CertificateId(-1)
 

@@ -7,8 +7,8 @@ from typing import cast, final
 from exactpt.certificates.certificate import ANGLE, KIND_COUNT, kind_of
 from exactpt.certificates.certifier import X_ORDER, Certifier, least_first
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
+from exactpt.filters.rounding import INFINITY
 from exactpt.indices import CertificateId, HalfEdge, VertexId
-from exactpt.kernel.rounding import INFINITY
 
 
 @final

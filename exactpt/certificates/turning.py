@@ -19,9 +19,9 @@ from __future__ import annotations
 
 from typing import Final, TypeAlias
 
-from exactpt.kernel import filters
-from exactpt.kernel.rounding import Answer, U
-from exactpt.kernel.sextics import sextic
+from exactpt.certificates import first_root as filters
+from exactpt.certificates.sextics import sextic
+from exactpt.filters.rounding import Answer, U
 from exactpt.motion.float_track import Arm, FloatTrack
 
 UNIT: Final = 32.0 * U

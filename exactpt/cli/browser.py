@@ -10,9 +10,9 @@ import traceback
 from collections.abc import Callable
 
 from exactpt.cli.terminal import answer_in_words, print_error
-from exactpt.collision.searches import ContactQuery, search_for
 from exactpt.errors import InputError
 from exactpt.scene.format import loads
+from exactpt.search.first import ContactQuery, search_for
 
 
 def answer(scene: str, method: str, tiling: str) -> str:

@@ -166,8 +166,8 @@ def convert(
 
 def _what_touches(scene: Scene) -> list[str]:
     """Return a line about the bodies that touch at the start, if there are any."""
-    from exactpt.pairs.selection import Selection
-    from exactpt.pairs.start import initial_touches
+    from exactpt.pair.start import initial_touches
+    from exactpt.search.query import Selection
 
     try:
         _, touching = initial_touches(scene)

@@ -24,7 +24,7 @@ def collide_all(
     path: Path, until: QQ | None, *, as_json: bool, exit_code: bool, max_seconds: float | None
 ) -> int:
     """Print all intervals of contact; the exit code."""
-    from exactpt.pairs.intervals import contacts
+    from exactpt.search.intervals import contacts
 
     _check_alone("every")
     with within_budget(max_seconds):
@@ -40,7 +40,7 @@ def collide_enclosed(
     path: Path, until: QQ | None, *, as_json: bool, exit_code: bool, max_seconds: float | None
 ) -> int:
     """Print bounds of the first contact, bodies turning at their true rates; the exit code."""
-    from exactpt.collision.enclosed import first_contact_enclosed
+    from exactpt.search.enclosed import first_contact_enclosed
 
     _check_alone("enclosed")
     with within_budget(max_seconds):

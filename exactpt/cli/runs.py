@@ -39,10 +39,9 @@ from exactpt.kernel.numbers import QQ, rational
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from exactpt.collision.search import Search
-    from exactpt.collision.searches import ContactQuery
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
+    from exactpt.search.first import ContactQuery, Search
     from exactpt.simulation.event import RunEvent
     from exactpt.simulation.simulation import Simulation
 
@@ -127,7 +126,7 @@ def collide(
 
         answer = collide_all if every else collide_enclosed
         return answer(scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds)
-    from exactpt.collision.searches import ContactQuery
+    from exactpt.search.first import ContactQuery
 
     if proof is not None and since is not None:
         raise InputError("--since: a proof is about the scene file, from its start on")
@@ -157,7 +156,7 @@ def _first_contact(
     stats: bool,
 ) -> Contact | None:
     """Find the first contact, and print it."""
-    from exactpt.collision.searches import search_for
+    from exactpt.search.first import search_for
 
     given: Scene | None = None
     search: Search | None = None

@@ -19,11 +19,11 @@ from exactpt.errors import printable
 from exactpt.kernel.numbers import shorten
 
 if TYPE_CHECKING:
-    from exactpt.collision.enclosed import EnclosedContact
     from exactpt.kernel.algebraic import AlgebraicNumber
-    from exactpt.pairs.contact import Contact
-    from exactpt.pairs.intervals import ContactInterval
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
+    from exactpt.search.enclosed import EnclosedContact
+    from exactpt.search.intervals import ContactInterval
     from exactpt.simulation.event import RunEvent
 
 

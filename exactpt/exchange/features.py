@@ -12,10 +12,10 @@ from exactpt.exchange.shapes import shape_at
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.shape import listed
-from exactpt.pairs.clearance import CloseInterval
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.intervals import ContactInterval
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.search.clearance import CloseInterval
+from exactpt.search.intervals import ContactInterval
 
 
 def to_features(

@@ -20,11 +20,11 @@ from exactpt.exchange.flattening import NAMESPACE, OUTLINE, Drawing, Window
 from exactpt.exchange.lengths import Matrix
 from exactpt.exchange.losses import Losses
 from exactpt.exchange.shapes import Shape, positive_tolerance, rounded_rings
+from exactpt.filters.rounding import U
 from exactpt.geometry.overlay import Part, as_given, evenodd, nonzero
 from exactpt.geometry.polygon import are_collinear
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import rational, shorten
-from exactpt.kernel.rounding import U
 
 if TYPE_CHECKING:
     import svgelements

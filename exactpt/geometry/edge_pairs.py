@@ -8,10 +8,10 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 Pairs: TypeAlias = tuple[Indices, Indices]
 Extents: TypeAlias = list[tuple[Floats, Floats]]

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from exactpt.filters.rounding import U
 from exactpt.geometry.boxes import Boxes
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Flags, Floats, Indices
-from exactpt.kernel.rounding import U
 
 
 @np.errstate(all="ignore")

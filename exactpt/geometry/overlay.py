@@ -29,12 +29,12 @@ from itertools import chain, combinations, pairwise
 from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
+from exactpt.filters.rounding import LARGEST, TINY, U
 from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.geometry.predicates import Point, between, crossing_of_lines, orientation
 from exactpt.geometry.simple import are_apart, cross_sign
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, exponent, nearest_float, power_of_two, relative_doubles
-from exactpt.kernel.rounding import LARGEST, TINY, U
 
 FEW: Final = 20
 """Maximum number of edges of which all pairs are compared here, without numpy."""

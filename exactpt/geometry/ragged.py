@@ -12,9 +12,9 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.geometry.edge_pairs import near_edges
 from exactpt.kernel.doubles import Flags, Floats, Indices, native
-from exactpt.kernel.rounding import SLACK, TINY, U
 
 K: Final = 8.0 * U
 """Relative bound on the rounding of an orientation: see `segments_meet`."""

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Final
 
-from exactpt.kernel.rounding import SLACK, TINY, U
+from exactpt.filters.rounding import SLACK, TINY, U
 
 Edge = tuple[float, float, float, float]
 

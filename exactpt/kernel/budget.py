@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Final, final
 
 from exactpt.errors import BudgetExceeded, InputError
+from exactpt.filters.rounding import check_rounding
 from exactpt.kernel.numbers import shorten
-from exactpt.kernel.rounding import check_rounding
 
 LONG: Final = 64
 """Number of coefficients from which on loops over coefficients of a polynomial check the budget."""

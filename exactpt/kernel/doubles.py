@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from exactpt.errors import InputError
+from exactpt.filters.rounding import check_rounding
 from exactpt.kernel.numbers import shorten
-from exactpt.kernel.rounding import check_rounding
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]

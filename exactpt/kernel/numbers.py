@@ -21,7 +21,7 @@ import gmpy2
 
 from exactpt.brief import cut, in_brief
 from exactpt.errors import InputError
-from exactpt.kernel.rounding import FAR
+from exactpt.filters.rounding import FAR
 
 if TYPE_CHECKING:
     ZZ = int

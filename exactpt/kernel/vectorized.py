@@ -1,6 +1,6 @@
 """The filters of degree 1 and 2 for many polynomials at once, in numpy.
 
-These are the operations of `exactpt.kernel.filters` in the same order, so its proofs hold
+These are the operations of `exactpt.certificates.first_root` in the same order, so its proofs hold
 here: arrays of doubles round as single ones do. The results are those of the scalar
 filters, bit for bit; an early return there is a mask here.
 
@@ -13,13 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U2, U4, U8
 from exactpt.kernel.doubles import Flags, Floats, Indices
-from exactpt.kernel.filters import U2, U4, U8
-from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY
 
 
 class Answers(NamedTuple):
-    """An `exactpt.kernel.rounding.Answer` for each polynomial: sign 0 means unsure."""
+    """An `exactpt.filters.rounding.Answer` for each polynomial: sign 0 means unsure."""
 
     signs: Indices
     lows: Floats
@@ -37,7 +36,7 @@ def linears(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the results for c0 + c1 t: see `exactpt.kernel.filters.linear`."""
+    """Return the results for c0 + c1 t: see `exactpt.certificates.first_root.linear`."""
     gap = abs(c1) - e1
     sloped = (gap > SMALL) & (gap < INFINITY)
     root = -c0 / c1
@@ -71,7 +70,7 @@ def quadratics(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the results for c0 + c1 t + c2 t^2: see `exactpt.kernel.filters.quadratic`."""
+    """Return the results for c0 + c1 t + c2 t^2: see `first_root.quadratic`."""
     square = c1 * c1
     product = 4.0 * c0 * c2
     d = square - product
@@ -143,7 +142,7 @@ def _near_alone(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """Return the results with one root alone: see `exactpt.kernel.filters._near_alone`."""
+    """Return the results with one root alone: see `exactpt.certificates.first_root._near_alone`."""
     alone = (-reach < low) & (high < reach) & (-reach < now_low) & (now_high < reach)
     past = at_root | (high <= now_low)
     before = alone & past & (horizon < reach)

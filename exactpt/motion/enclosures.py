@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 import numpy as np
 
+from exactpt.filters.rounding import LARGEST, SMALLEST, U
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
-from exactpt.kernel.rounding import LARGEST, SMALLEST, U
 from exactpt.motion.float_track import Arm, FloatTrack, constant_error, translated
 from exactpt.motion.normalization import Normalization, binary_exponent, combined
 from exactpt.motion.track import Turning

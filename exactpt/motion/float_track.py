@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Final, final
 
 from mypy_extensions import mypyc_attr
 
-from exactpt.kernel.error_free import is_exact_sum
-from exactpt.kernel.rounding import LARGEST, SMALLEST, U
+from exactpt.filters.error_free import is_exact_sum
+from exactpt.filters.rounding import LARGEST, SMALLEST, U
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
 import numpy as np
 
+from exactpt.filters.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.geometry.ragged import spread
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.double_double import exact_sum
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, nearest_float, of_double
-from exactpt.kernel.rounding import LARGEST, SMALLEST, TINY, U
 from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization, normalization_for
 

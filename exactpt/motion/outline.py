@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple, final
 
+from exactpt.filters.rounding import FAR, TINY, U
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.kernel.rounding import FAR, TINY, U
 from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation

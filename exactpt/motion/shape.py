@@ -10,9 +10,9 @@ from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
+from exactpt.filters.rounding import LARGEST, SMALLEST
 from exactpt.kernel.numbers import QQ, Rational, as_doubles, nearest_float, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
-from exactpt.kernel.rounding import LARGEST, SMALLEST
 from exactpt.motion.motions import Coefficients, Position
 
 VertexLike: TypeAlias = (

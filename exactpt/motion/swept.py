@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
 
+from exactpt.filters.rounding import SLACK, SMALL, TINY, U
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Floats, middles
-from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
     from exactpt.motion.float_track import FloatTrack

@@ -15,12 +15,12 @@ import numpy as np
 from librt.vecs import append, vec
 from mypy_extensions import i32, i64
 
+from exactpt.filters.rounding import INFINITY
 from exactpt.indices import VertexId
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import items, native
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.float_track import FloatTrack

@@ -15,14 +15,11 @@ from typing import TYPE_CHECKING, Any, Final, final
 
 from exactpt.cached_property import cached_property
 from exactpt.check_apart import is_bounded
-from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, shorten, show
 from exactpt.motion.tileable import refuse_touching_rings
-from exactpt.pairs.approach import Approach, first_within
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.selection import Selection
+from exactpt.pair.contact import Contact
 from exactpt.proof.apart import Separation
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import may_write_beside, write_beside
@@ -33,12 +30,14 @@ from exactpt.proof_scene import Rejected, written
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import scene_bytes, to_json
+from exactpt.search.first import first_contact
+from exactpt.search.query import Selection
+from exactpt.search.within import Approach, first_within
 
 if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts
-    from exactpt.collision.search import Search
-    from exactpt.collision.searches import ContactQuery
     from exactpt.motion.body import Body
+    from exactpt.search.first import ContactQuery, Search
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""

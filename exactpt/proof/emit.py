@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.collision.driver import CHANGES, Observer
-from exactpt.collision.tiling_search import TilingSearch
 from exactpt.errors import InputError
 from exactpt.files import open_regular, write_atomically, writing
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -19,12 +17,14 @@ from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Step, Watch
 from exactpt.scene.written import scene_bytes
+from exactpt.tiling.driver import CHANGES, Observer
+from exactpt.tiling.tiling_search import TilingSearch
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
     from exactpt.motion.track import Incidence
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 

@@ -15,7 +15,6 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.collision.driver import CHANGES, Observer
 from exactpt.errors import InputError
 from exactpt.files import create, open_regular, writing
 from exactpt.proof.degrees import refuse_degrees
@@ -23,6 +22,7 @@ from exactpt.proof.emit import Part, ProofRun
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes, rigid_until
 from exactpt.scene.written import scene_bytes
+from exactpt.tiling.driver import CHANGES, Observer
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge

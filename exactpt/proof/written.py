@@ -15,7 +15,7 @@ from exactpt.scene.written import scene_bytes
 
 if TYPE_CHECKING:
     from exactpt.check_apart import Proved as Certified
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.proof_check import Proved
 
 

@@ -32,10 +32,10 @@ from collections.abc import Sequence
 from typing import Final, final
 
 from exactpt.cached_property import cached_property
+from exactpt.filters.rounding import SLACK, TINY, U
 from exactpt.geometry.predicates import Point, orientation
 from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, sign
-from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.query.nodes import Given, difference, exact
 from exactpt.query.subdivision import On, Spot, Subdivision, cross
 

@@ -17,7 +17,7 @@ from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
-    from exactpt.pairs.contact import Contact, ContactPoint
+    from exactpt.pair.contact import Contact, ContactPoint
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from exactpt.kernel.algebraic import AlgebraicNumber
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.render.film import Film, Step
     from exactpt.scene.scene import Scene
 

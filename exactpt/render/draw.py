@@ -8,7 +8,6 @@ from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import show
-from exactpt.pairs.surroundings import clearance
 from exactpt.render.canvas import frame_of
 from exactpt.render.film import film_of
 from exactpt.render.marked import film_of_run
@@ -18,6 +17,7 @@ from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
 from exactpt.render.still import has_fan, still, still_of
 from exactpt.render.svg import svg_of
+from exactpt.search.surroundings import clearance
 
 if TYPE_CHECKING:
     from collections.abc import Callable

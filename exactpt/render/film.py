@@ -5,20 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
-from exactpt.collision.detector import first_contact
-from exactpt.collision.driver import Driver
 from exactpt.errors import carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import Budget, searching
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
 from exactpt.scene.groups import is_tileable
+from exactpt.search.first import first_contact
+from exactpt.tiling.driver import Driver
 from exactpt.tiling.start import plan_tiling
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from exactpt.kernel.numbers import QQ
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.events import TilingEvent
     from exactpt.tiling.tiling import Tiling

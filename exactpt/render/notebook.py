@@ -15,7 +15,7 @@ from exactpt.render.svg import svg_of
 from exactpt.render.words import clean, incidences_in_words, polynomial_in_words, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 

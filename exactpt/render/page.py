@@ -16,8 +16,8 @@ from exactpt.render.words import clean, time_in_words
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
-    from exactpt.pairs.clearance import Clearance
     from exactpt.render.film import Film
+    from exactpt.search.clearance import Clearance
 
 SCRIPTS: Final = (
     "exact",

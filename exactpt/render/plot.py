@@ -12,7 +12,7 @@ from exactpt.render.palette import FONT, style_of
 from exactpt.render.words import clean, short, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.pairs.clearance import Clearance
+    from exactpt.search.clearance import Clearance
 
 SAMPLES: Final = 240
 """Number of equal parts of the time span at whose ends the distance is computed."""

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
-from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
 from exactpt.scene.groups import is_tileable
+from exactpt.search.first import first_contact
 from exactpt.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.scene.scene import Scene
 
 

@@ -12,11 +12,11 @@ from collections.abc import Iterable, Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
-from exactpt.collision.driver import CHANGES, Observer
 from exactpt.indices import Ends, HalfEdge
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
+from exactpt.tiling.driver import CHANGES, Observer
 
 if TYPE_CHECKING:
     from exactpt.planar.halfedge import PlanarMap

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.numbers import QQ
-    from exactpt.pairs.contact import Contact, ContactPoint
+    from exactpt.pair.contact import Contact, ContactPoint
 
 
 def clean(text: str) -> str:

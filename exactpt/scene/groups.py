@@ -150,3 +150,25 @@ def refuse_groups(scene: Scene, why: str) -> None:
         raise InputError(
             f'bodies of this scene ignore each other ("ignoring"), such as those of {group}: {why}'
         )
+
+
+def refuse_ignored_pair(scene: Scene, a: str, b: str) -> None:
+    """Refuse a question about two bodies that ignore each other in the scene.
+
+    Args:
+        scene: the scene, which has bodies of both names.
+        a: the name of one of them.
+        b: the name of the other one.
+
+    Raises:
+        InputError: if a group of the scene has both.
+    """
+    if not scene.ignoring:
+        return
+    names = names_of(scene.bodies)
+    both = {names.index(a), names.index(b)}
+    if any(both <= set(members) for members in members_of(scene.ignoring, names)):
+        raise InputError(
+            f"bodies {shorten(a)} and {shorten(b)} ignore each other in this scene; take one of "
+            "them out of the group that has both"
+        )

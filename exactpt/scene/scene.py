@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Literal, final, overload
 from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.extensions import extension
+from exactpt.filters.rounding import check_rounding
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
-from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_simple_by_doubles
 from exactpt.scene.groups import Groups, groups_given, kept_groups, members_of, names_of

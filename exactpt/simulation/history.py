@@ -16,7 +16,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.motion.outline import pieces_of
 from exactpt.motion.stated_errors import StatedErrors, pivots_of
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.scene.units import Units
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, final
 
-from exactpt.collision.driver import TiledScene
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.tileable import refuse_untileable
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import RunEvent, events_of
 from exactpt.simulation.motion_changes import with_new_motion
+from exactpt.tiling.driver import TiledScene
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import Body
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
 from exactpt.simulation.mutable_scene import MutableScene
 
 

@@ -21,7 +21,7 @@ from exactpt.simulation.motion_changes import GRID, continued, onward, translati
 from exactpt.simulation.normals import Vector, normals_at
 
 if TYPE_CHECKING:
-    from exactpt.pairs.contact import Contact, ContactPoint
+    from exactpt.pair.contact import Contact, ContactPoint
     from exactpt.simulation.simulation import Simulation
 
 ROUNDS: Final = 8

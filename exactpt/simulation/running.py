@@ -9,17 +9,17 @@ from fractions import Fraction
 from threading import RLock
 from typing import TypeAlias, final
 
-from exactpt.collision.driver import Driver, Observer
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
+from exactpt.filters.rounding import check_rounding
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
-from exactpt.kernel.rounding import check_rounding
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import RunEvent, events_of
 from exactpt.simulation.history import Log
 from exactpt.simulation.mutable_scene import Choice, MutableScene
 from exactpt.simulation.reported_contact import ReportedContact, with_motions_of
+from exactpt.tiling.driver import Driver, Observer
 from exactpt.tiling.start import plan_tiling
 
 Response: TypeAlias = "Callable[[Contact], object]"

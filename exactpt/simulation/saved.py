@@ -35,7 +35,7 @@ from exactpt.motion.infinitesimal import ring_of_copies
 from exactpt.motion.normalization import Normalization, Reach, normalization_of
 from exactpt.motion.tileable import refuse_untileable
 from exactpt.motion.vertices import Vertices
-from exactpt.pairs.contact import Contact, ContactPoint
+from exactpt.pair.contact import Contact, ContactPoint
 from exactpt.simulation.event import RunEvent
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry

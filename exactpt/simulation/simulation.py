@@ -29,7 +29,7 @@ from exactpt.tiling.report import report, rules_of
 
 if TYPE_CHECKING:
     from exactpt.kernel.stored import Stored
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query import answers
     from exactpt.query.answers import Hit, Place, VertexName

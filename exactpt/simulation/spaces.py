@@ -12,7 +12,7 @@ from exactpt.pseudotriangulation.snapshot import placed_at, snapshot
 
 if TYPE_CHECKING:
     from exactpt.certificates.queue import EventTime
-    from exactpt.pairs.contact import Contact
+    from exactpt.pair.contact import Contact
     from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query.space import FreeSpace
     from exactpt.tiling.tiling import Tiling

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exactpt.pairs.approach import Approach
-from exactpt.pairs.clearance import CloseInterval
-from exactpt.pairs.contact import Contact
-from exactpt.pairs.distance import Distance
-from exactpt.pairs.features import Feature
-from exactpt.pairs.incidences import ContactPoint
-from exactpt.pairs.intervals import ContactInterval
+from exactpt.pair.contact import Contact
+from exactpt.pair.distance import Distance
+from exactpt.pair.features import Feature
+from exactpt.pair.incidences import ContactPoint
+from exactpt.search.clearance import CloseInterval
+from exactpt.search.intervals import ContactInterval
+from exactpt.search.within import Approach
 from exactpt.testing.reference import FirstContact, NamedIncidence, Nearest, Place
 
 __all__ = ["Disagreement", "disagreement", "plain", "plain_contact"]

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import kind_of, part_of
-from exactpt.collision.driver import Driver, Observer
 from exactpt.errors import AuditError
 from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -15,6 +14,7 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.vertices import WIDTH, Vertices
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
+from exactpt.tiling.driver import Driver, Observer
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.tiling import Tiling
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Final, TypeAlias
 
-from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.search.first import first_contact
 
 VERDICTS: Final = ("right", "missed", "invented", "early", "late", "crashed")
 """What an answer can be."""

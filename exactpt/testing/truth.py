@@ -10,12 +10,12 @@ import numpy as np
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.arrays.pairs import first_contacts
 from exactpt.brief import record_in_brief
-from exactpt.collision.detector import first_contact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.pairs.contact import Contact
+from exactpt.pair.contact import Contact
+from exactpt.search.first import first_contact
 from exactpt.testing.questions import Asked, Moving, Question
 
 

@@ -19,10 +19,10 @@ from exactpt.certificates.certifier import Certifier, least_first
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import Angles
 from exactpt.certificates.table import CertificateTable
+from exactpt.filters.rounding import INFINITY
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, Triple, VertexId, half_edge_vec
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import view
-from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import MOTION as MOTION_OF
 from exactpt.motion.vertices import OTHER_MOTION, WIDTH, Vertices

@@ -13,7 +13,7 @@ from exactpt import AlgebraicNumber, Clearance, Scene
 from exactpt.kernel.algebraic import rational_between
 from exactpt.kernel.algebraic_value import square_root
 from exactpt.kernel.numbers import QQ, ZZ, fraction
-from exactpt.pairs.clearance import ClearancePiece, CloseInterval
+from exactpt.search.clearance import ClearancePiece, CloseInterval
 from exactpt.testing import reference
 from exactpt.testing.reference import Nearest, Place
 from fuzz.laws.law import check_equal, refuse_unless

@@ -28,7 +28,7 @@ from exactpt import (
 from exactpt.kernel.algebraic_value import square_root
 from exactpt.kernel.numbers import QQ, fraction, rational
 from exactpt.kernel.square_root import exact_square_root
-from exactpt.pairs.clearance import CloseInterval
+from exactpt.search.clearance import CloseInterval
 from exactpt.testing import reference
 from exactpt.testing.agreement import plain, plain_contact
 from fuzz.laws.law import refuse_unless

@@ -123,9 +123,9 @@ def power(
     Examples:
       python -m fuzz power --seconds 20
       python -m fuzz power --record laws.coverage
-      python -m fuzz power --mutants 40 --part pairs --part collision \\
+      python -m fuzz power --mutants 40 --part pair --part search \\
         --reached laws.coverage --results pairs.jsonl
-      python -m fuzz power --mutants 40 --part pairs --tests tests/unit/pairs \\
+      python -m fuzz power --mutants 40 --part search --tests tests/unit/search \\
         --reached laws.coverage --reached .coverage --results pairs.jsonl
     """
     named = [law for law in LAWS if not chosen or law.startswith(chosen)]

@@ -10,8 +10,8 @@ from typing import Final, NamedTuple
 import pytest
 from _pytest.runner import runtestprotocol
 
+from exactpt.certificates import first_root as filters
 from exactpt.errors import InputError
-from exactpt.kernel import filters
 from fuzz.laws.known import reason_of
 from fuzz.laws.runner import PATIENCE, run_for
 from fuzz.power.forked import Say, in_a_process

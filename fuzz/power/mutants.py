@@ -18,8 +18,8 @@ from fuzz.power.edits import Lines
 __all__ = ["PARTS", "Mutant", "mutants"]
 
 ROOT: Final = Path(__file__).parents[2]
-PARTS: Final = ("kernel", "geometry", "planar", "motion", "certificates", "pairs", "collision",
-                "pseudotriangulation", "tiling", "simulation", "query", "scene",
+PARTS: Final = ("kernel", "geometry", "planar", "motion", "certificates", "filters", "pair",
+                "search", "pseudotriangulation", "tiling", "simulation", "query", "scene",
                 "arrays", "proof")  # fmt: skip
 """The parts of the package that are changed by default."""
 
@@ -38,7 +38,7 @@ class Mutant(NamedTuple):
 
     Attributes:
         name: the function, the number of the place in it, and the change, as in
-            "exactpt.pairs.boxes.joined[2]: a < b -> a <= b".
+            "exactpt.search.boxes.joined[2]: a < b -> a <= b".
         lines: the changed lines, from the beginning of their statement on.
         make: changes the function in this process.
     """

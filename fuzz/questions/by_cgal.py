@@ -12,7 +12,7 @@ from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.pairs.clearance import ClearancePiece
+from exactpt.search.clearance import ClearancePiece
 from exactpt.testing.reference.times import tracks_after
 from exactpt.testing.reference.within import is_within
 

@@ -8,14 +8,14 @@ from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.pairs.approach import first_within
-from exactpt.pairs.clearance import Clearance
-from exactpt.pairs.start import initial_touches
-from exactpt.pairs.surroundings import clearance
+from exactpt.pair.start import initial_touches
 from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
+from exactpt.search.clearance import Clearance
+from exactpt.search.surroundings import clearance
+from exactpt.search.within import first_within
 from exactpt.testing.audits import audit_certificates
 from exactpt.testing.scenes import generate
 from exactpt.testing.space.queries import SpaceQuery

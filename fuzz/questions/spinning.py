@@ -21,13 +21,13 @@ from typing import Any, Final, NamedTuple
 
 import mpmath
 
-from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.motion.body import Body
 from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
+from exactpt.search.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.testing.scenes import SPINNING
 from fuzz.references.true_turns import DIGITS, Approach, Real, Truth, UndecidedError, real
 

@@ -8,7 +8,7 @@ bodies must touch, by the definition of `exactpt.testing.reference`.
 
 For convex bodies at places with rational normals the law holds in the other direction, too. If the
 bodies overlap by E or more in the direction of every normal of an edge, they touch after all of
-these moves (see `exactpt.pairs.sure`), and the result must be certain. So with convex bodies
+these moves (see `exactpt.pair.sure`), and the result must be certain. So with convex bodies
 "certain" and "touches after each of these moves" are the same.
 
 Scenes are made with the places and the errors at hand, so nothing is read from a motion: an error
@@ -32,13 +32,13 @@ from typing import Any, Final, NamedTuple
 
 import mpmath
 
-from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.kernel.numbers import rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
+from exactpt.search.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.testing import reference
 from fuzz.references.true_turns import DIGITS, Truth, UndecidedError, real
 

@@ -34,9 +34,9 @@ from exactpt import (
     first_contact_enclosed,
     first_within,
 )
-from exactpt.collision.comparison import contrast
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.motions import Motion
+from exactpt.pair.comparison import contrast
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement
 from exactpt.testing.reference import new_contact

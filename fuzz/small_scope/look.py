@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 from exactpt import Contact, InputError, Scene, Simulation, first_contact, stop
 from exactpt.kernel.numbers import ZZ
-from exactpt.pairs.pieces import linear_pieces
+from exactpt.search.pieces import linear_pieces
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import run_and_audit

@@ -409,7 +409,7 @@ def test_a_mistake_in_a_filter_is_found_by_questions(monkeypatch, bound):
     them, and differences of near numbers none; the square root has half of the error of D over
     itself. But they are not those of the filter in arrays.
     """
-    monkeypatch.setattr("exactpt.kernel.filters.U4", bound)
+    monkeypatch.setattr("exactpt.certificates.first_root.U4", bound)
     results = [run_case(Case(number, "questions/filters", 0), witnesses=[]) for number in range(4)]
 
     assert any(result.findings for result in results)
@@ -457,7 +457,7 @@ def test_a_normal_from_the_piece_after_a_breakpoint_is_found(monkeypatch):
             max((b for b in body.exact_breakpoints if time >= b), default=start)
         )
 
-    monkeypatch.setattr("exactpt.pairs.incidences._piece_before", after)
+    monkeypatch.setattr("exactpt.pair.incidences._piece_before", after)
     assert wrong_normals() == {"normal"}
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 import exactpt
-from exactpt.pairs.clearance import Clearance, Minimum
+from exactpt.search.clearance import Clearance, Minimum
 from fuzz.laws.runner import cases_of, look
 
 CASES = 60

@@ -20,7 +20,7 @@ from exactpt import (
     first_contact,
 )
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import boxes
+from exactpt.search import boxes
 from exactpt.testing import ending_at
 from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
@@ -47,7 +47,7 @@ def test_mistake_is_made_and_undone(bug):
 
 def test_edited_function_is_wrong_for_those_who_imported_it_too():
     """`scene_pieces` has `radius_above` by name: a patch of the module would not reach it."""
-    from exactpt.pairs import scene_pieces
+    from exactpt.search import scene_pieces
 
     body = Body("disc", [(0, 0)], radius="1/3")
     with Edit(boxes, "radius_above", "enclosing_floats(body.exact_radius)[1]", "7.0").made():

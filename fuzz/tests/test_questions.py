@@ -8,12 +8,12 @@ from click.testing import CliRunner
 from folding import every
 
 from exactpt import AlgebraicNumber, Body, Scene
-from exactpt.collision import enclosed
 from exactpt.kernel.numbers import QQ
 from exactpt.motion import curve
 from exactpt.motion.displacement import Placed, placed_at
-from exactpt.pairs.clearance import Minimum
-from exactpt.pairs.sure import surely_meet
+from exactpt.pair.sure import surely_meet
+from exactpt.search import enclosed
+from exactpt.search.clearance import Minimum
 from exactpt.testing.reference import overlap
 from fuzz.questions import by_cgal, checks, convoys
 from fuzz.questions.command import questions

@@ -16,9 +16,9 @@ from exactpt import Body, InputError, Scene
 from exactpt.arrays import first_contacts
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
+from exactpt.search.pieces import linear_pieces
 from exactpt.testing import reference
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.changes.images import halved
@@ -548,5 +548,5 @@ def test_bug_crossings_at_vertices_are_found(monkeypatch):
         return {n: [a.fault for a in look(planned(n)).answers if a.fault] for n in numbers}
 
     assert faults() == {n: [] for n in numbers}
-    monkeypatch.setattr("exactpt.pairs.overlap._chains_cross", lambda *_: False)
+    monkeypatch.setattr("exactpt.pair.overlap._chains_cross", lambda *_: False)
     assert faults() == {n: [what] for n, what in numbers.items()}

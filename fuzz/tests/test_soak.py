@@ -103,7 +103,7 @@ def test_a_record_is_the_same_twice(lines):
 
 
 def test_another_answer_is_another_record(lines, monkeypatch):
-    monkeypatch.setattr("exactpt.pairs.incidences.finite", lambda x: x + 1.0)
+    monkeypatch.setattr("exactpt.pair.incidences.finite", lambda x: x + 1.0)
 
     assert differences(lines, list(record(FAMILIES, 6)))
 
@@ -113,7 +113,7 @@ def test_record_of_pairs_repeats_and_changes_with_an_answer(monkeypatch):
     assert len(lines) == 6 + 4 + ARRAYS
     assert differences(lines, list(pair_record(["convex", "kissing_discs"], 2, 4))) == []
 
-    monkeypatch.setattr("exactpt.pairs.incidences.finite", lambda x: x + 1.0)
+    monkeypatch.setattr("exactpt.pair.incidences.finite", lambda x: x + 1.0)
 
     changed = differences(lines, list(pair_record(["convex", "kissing_discs"], 2, 4)))
     assert {line.split()[1] for line in changed} >= {"kissing_discs", "arrays"}

@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt import AlgebraicNumber, Body, Scene
-from exactpt.kernel import filters
+from exactpt.certificates import first_root as filters
 from exactpt.kernel.numbers import QQ
 from fuzz.campaign import Progress
 from fuzz.changes.images import TRANSFORMATIONS, Mirror, move_alike

@@ -36,10 +36,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exactpt.errors import InputError
+from exactpt.filters.rounding import TINY, U, check_rounding
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import shorten
-from exactpt.kernel.rounding import TINY, U, check_rounding
 from exactpt.testing.space.exact import SpaceContact, first_contact_of
 from exactpt.testing.space.queries import Kind
 

@@ -15,7 +15,7 @@ def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkey
     def broken(*_):
         raise AuditError("broken on purpose")
 
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", broken)
+    monkeypatch.setattr("exactpt.tiling.driver.initial_touches", broken)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     with pytest.raises(SystemExit) as ended:
         cli.main(["collide", str(DEMO), "--method", "kinetic"])
@@ -33,7 +33,7 @@ def test_an_error_raised_in_python_has_its_scene(tmp_path, monkeypatch, how):
     def broken(*_, **__):
         raise AuditError("broken on purpose")
 
-    monkeypatch.setattr("exactpt.pairs.features_sweep.PairsSearch.run_to_contact", broken)
+    monkeypatch.setattr("exactpt.search.features_sweep.PairsSearch.run_to_contact", broken)
     calls = {
         "simulation": partial(Simulation, scene),
         "kinetic": partial(first_contact, scene, method="kinetic"),
@@ -54,7 +54,7 @@ def test_the_library_saves_nothing(tmp_path, monkeypatch):
     """It raises; the scene is the caller's."""
     scene = Scene.load(DEMO)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", lambda *_: 1 // 0)
+    monkeypatch.setattr("exactpt.tiling.driver.initial_touches", lambda *_: 1 // 0)
 
     with pytest.raises(ZeroDivisionError):
         Simulation(scene)

@@ -32,7 +32,7 @@ from exactpt import (
 from exactpt.batch import Options, answers
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.stored import Stored
-from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.search.features_sweep import PairsSearch
 from exactpt.simulation.saved import tiling_from_json, tiling_to_json
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement

@@ -278,8 +278,8 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
     unpickler.load()
     assert unpickler.names == {
         "builtins.getattr",
-        "exactpt.pairs.contact.Contact",
-        "exactpt.pairs.incidences.ContactPoint",
+        "exactpt.pair.contact.Contact",
+        "exactpt.pair.incidences.ContactPoint",
         "exactpt.kernel.algebraic.AlgebraicNumber",
         "exactpt.kernel.polynomial.Polynomial",
         "exactpt.motion.body.Body",

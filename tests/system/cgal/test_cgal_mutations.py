@@ -11,7 +11,7 @@ from cgal_tilings import as_tile, random_map, random_tiling
 from exactpt import Simulation
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.check import check_scene
-from exactpt.pairs.start import initial_touches
+from exactpt.pair.start import initial_touches
 from exactpt.simulation.tile import tile_at
 from exactpt.testing.scenes import POINTS, RINGS, generate
 from exactpt.tiling.start import TILINGS

@@ -56,7 +56,7 @@ def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatc
     def breaks(*_):
         raise ZeroDivisionError("nobody thought of this")
 
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", breaks)
+    monkeypatch.setattr("exactpt.tiling.driver.initial_touches", breaks)
     odd = scene.with_name("a scene without an ending")
     odd.write_bytes(scene.read_bytes())
 
@@ -73,7 +73,7 @@ def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatc
 def test_the_scene_is_kept_not_what_is_written(scene, monkeypatch, capsys):
     old = scene.with_name("old.json")
     old.write_text("{}")
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", lambda *_: 1 // 0)
+    monkeypatch.setattr("exactpt.tiling.driver.initial_touches", lambda *_: 1 // 0)
 
     assert code_of("tile", "-o", old, scene) == 3
 

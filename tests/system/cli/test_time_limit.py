@@ -12,8 +12,8 @@ from commands import code_of
 
 from exactpt.cli.alarm import time_limit
 from exactpt.errors import BudgetExceeded
-from exactpt.pairs import features_sweep as pairs
 from exactpt.scene.written import save
+from exactpt.search import features_sweep as pairs
 from exactpt.testing.scenes import generate
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.isolated import LEFT, IsolatedEvents
@@ -66,7 +66,7 @@ def left_behind(folder):
 )
 def test_what_never_ends_is_interrupted(scene, monkeypatch, capsys, name, patched):
     monkeypatch.setattr(patched, for_ever)
-    monkeypatch.setattr("exactpt.pairs.search._Search.run", for_ever)
+    monkeypatch.setattr("exactpt.search.linear._Search.run", for_ever)
 
     assert run(name, scene, 0.05) == 4
     assert "time limit exceeded" in capsys.readouterr().err
@@ -105,7 +105,7 @@ def test_an_event_that_never_ends_leaves_the_time_before_it(scene, monkeypatch, 
 
 
 def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
-    monkeypatch.setattr("exactpt.collision.driver.initial_touches", for_ever)
+    monkeypatch.setattr("exactpt.tiling.driver.initial_touches", for_ever)
 
     assert run("collide", scene, 0.05) == 4
 
@@ -117,7 +117,7 @@ def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
 @pytest.mark.parametrize("name", ["collide", "collide in words", "collide pairs"])
 def test_at_start_up_the_start_is_told(scene, monkeypatch, capsys, name):
     monkeypatch.setattr(pairs.PairsSearch, "_search", for_ever)
-    monkeypatch.setattr("exactpt.pairs.search._Search.run", for_ever)
+    monkeypatch.setattr("exactpt.search.linear._Search.run", for_ever)
     monkeypatch.setattr(Tiling, "__init__", for_ever)
 
     assert run(name, scene, 0.05) == 4

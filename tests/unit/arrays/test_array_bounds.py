@@ -13,11 +13,11 @@ from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.relative import Relative, orientations, sides
 from exactpt.arrays.sharpening import ExactRelative, sharpened
 from exactpt.arrays.spans import read_spans
+from exactpt.filters.rounding import U
 from exactpt.geometry import polygon
 from exactpt.geometry.ragged import segments_meet, surely_simple
 from exactpt.kernel.double_double import add2, exact_difference, exact_sum, multiply2
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.rounding import U
 from exactpt.scene.body_arrays import BodyArrays
 
 

@@ -20,8 +20,8 @@ from exactpt.arrays import turning as turning_arrays
 from exactpt.batch import Options, answers
 from exactpt.batch.answering import answer, answers_of
 from exactpt.batch.two_bodies import read_two_bodies
-from exactpt.collision.detector import first_contact
 from exactpt.scene.format import loads
+from exactpt.search.first import first_contact
 
 PLAIN = Options()
 

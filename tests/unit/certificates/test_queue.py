@@ -11,10 +11,10 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 
 from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
+from exactpt.filters.rounding import INFINITY
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
-from exactpt.kernel.rounding import INFINITY
 
 # The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
 NUMBERS = [

@@ -16,7 +16,7 @@ from exactpt.exchange import bodies, svg
 from exactpt.exchange.drawing import read_drawing
 from exactpt.exchange.losses import Losses
 from exactpt.files import read_bytes
-from exactpt.pairs import start as initial
+from exactpt.pair import start as initial
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg">'
 OUTLINE = '<path d="M0 0h1v1z"/>'

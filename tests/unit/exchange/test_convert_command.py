@@ -6,7 +6,7 @@ import pytest
 from commands import code_of, run
 
 from exactpt import Body, BudgetExceeded, Scene, Translation
-from exactpt.pairs import start as initial
+from exactpt.pair import start as initial
 from exactpt.testing.scenes import FAMILIES, POINTS
 from exactpt.testing.scenes import generate as generated
 

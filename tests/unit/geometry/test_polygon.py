@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import as_rational, fractions, wide_fractions
 
+from exactpt.filters.rounding import U
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.edge_pairs import near_edges
 from exactpt.geometry.polygon import (
@@ -24,7 +25,6 @@ from exactpt.geometry.predicates import between, orient2d, orientation
 from exactpt.geometry.ragged import _surely_apart
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.kernel.rounding import U
 
 SIMPLE = (
     [(0, 0), (2, 0), (0, 1)],

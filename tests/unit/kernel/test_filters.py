@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import as_rational, small
 
-from exactpt.kernel import filters, windows
+from exactpt.certificates import first_root as filters
+from exactpt.certificates import root_windows as windows
 from exactpt.kernel.numbers import QQ, rational
 from fuzz.filter_attacks import Case, answer, extreme, generic, hostile, judge, variants
 from fuzz.references.real_roots import value

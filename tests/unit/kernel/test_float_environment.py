@@ -15,9 +15,9 @@ from exactpt import InputError, Polynomial, arrays
 from exactpt.certificates.kinetic import CertificateQueue
 from exactpt.cli import main
 from exactpt.errors import RoundingError
+from exactpt.filters.rounding import check_rounding
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.collection import collector_at_rest
-from exactpt.kernel.rounding import check_rounding
 from exactpt.testing import space
 from exactpt.testing.scenes import FAMILIES, generate
 

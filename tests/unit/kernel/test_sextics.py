@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import small
 
-from exactpt.kernel import sextics
+from exactpt.certificates import sextics
 from exactpt.kernel.numbers import QQ, rational
 from fuzz.filter_attacks import Case, answer, hostile, judge
 from fuzz.references.real_roots import value

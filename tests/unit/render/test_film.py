@@ -7,7 +7,6 @@ from itertools import pairwise
 import pytest
 from render_scenes import apart, demo, overlapping, rebuilt, small
 
-from exactpt.collision.driver import Driver
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.pseudotriangulation.snapshot import snapshot
@@ -18,6 +17,7 @@ from exactpt.render.page import page_of
 from exactpt.render.tracker import Tracker
 from exactpt.simulation.simulation import Simulation
 from exactpt.testing.scenes import generate
+from exactpt.tiling.driver import Driver
 
 
 def alive(spans, step):

@@ -8,7 +8,7 @@ import math
 
 from exactpt import Body, Scene
 from exactpt.certificates.certifier import Certifier
-from exactpt.collision.driver import Driver
+from exactpt.tiling.driver import Driver
 from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.paths import SearchableTree

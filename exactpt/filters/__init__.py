@@ -1,0 +1,1 @@
+"""Constants of rounding and sums without error: doubles only, below exact numbers."""

@@ -1,1 +1,0 @@
-"""Questions about pairs of bodies: first contacts, approaches, distances, intervals."""

@@ -1,0 +1,65 @@
+"""The pairs of bodies that come near each other: a filter for questions about all pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from exactpt.geometry.boxes import grown, overlapping_pairs
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.motion.slabs import Near, Slab
+from exactpt.motion.swept_edges import SweptEdges
+from exactpt.scene.scene import Scene
+from exactpt.search.boxes import PieceBoxes
+from exactpt.search.pieces import ScenePieces, linear_pieces
+
+FEW: Final = 4
+"""Maximum number of bodies of which all pairs are named at once, if none changes its motion."""
+SLABS: Final = 64
+"""Minimum number of slabs in the time span, of motions that are not linear."""
+
+
+Spans: TypeAlias = "list[tuple[QQ, QQ]]"
+"""Disjoint closed spans of time, but for their ends, in order."""
+
+
+def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
+    """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect, and when.
+
+    A superset of those whose distance in the maximum norm is ever at most the reach, in order,
+    and of the times at which it is. (The radii of rounded bodies are added to it.)
+    """
+    bodies, start, end = scene.bodies, scene.exact_start, scene.exact_end
+    if len(bodies) <= FEW and not any(body.exact_breakpoints for body in bodies):
+        return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
+    found: dict[tuple[int, int], Spans] = {}
+    pieces = linear_pieces(scene)
+    if pieces is not None:
+        boxes = PieceBoxes.of(pieces, enclosing_floats(reach / 2)[1])
+        for _, a, b in ScenePieces(pieces, start, end, boxes).near():
+            pair = min(a.body, b.body), max(a.body, b.body)
+            found.setdefault(pair, []).append((max(a.start, b.start), min(a.end, b.end)))
+    else:
+        for now, later, (i, j) in _near_slabs(scene, reach):
+            for pair in zip(i.tolist(), j.tolist(), strict=True):
+                found.setdefault(pair, []).append((now, later))
+    return {pair: sorted(found[pair]) for pair in sorted(found)}
+
+
+def _near_slabs(scene: Scene, reach: QQ) -> Iterator[Slab]:
+    """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
+    swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
+    units = [power_of_two(-scale) for scale in swept.vertices.normalization.scale]
+    halves = [reach / 2 + body.exact_radius for body in scene.bodies]
+    by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
+
+    def near(now: QQ, later: QQ) -> Near:
+        boxes = swept.of_bodies(swept.during(now, later))
+        i, j = zip(*overlapping_pairs(grown(boxes, by) if by.any() else boxes), strict=True)
+        return np.concatenate(i), np.concatenate(j)
+
+    longest, many = (scene.exact_end - scene.exact_start) / SLABS, 8 * len(scene.bodies) + 64
+    return swept.slabs(near, longest, many, bodies_of=lambda pairs: pairs)

@@ -1,0 +1,325 @@
+"""Bodies that move straight: the answer of the search over features, byte for byte."""
+
+import json
+import math
+from random import Random
+
+import pytest
+
+from exactpt import Body, Contact, Pieces, Rigid, Scene, Translation, first_contact
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.outline import far_origin
+from exactpt.pair import incidences
+from exactpt.search import boxes as piece_boxes
+from exactpt.search import linear as linear_search
+from exactpt.search import pieces
+from exactpt.search.features_sweep import PairsSearch
+from exactpt.search.pieces import linear_pieces
+from exactpt.testing import reference
+from exactpt.testing.agreement import disagreement
+from exactpt.testing.scenes import FAMILIES, POINTS, generate
+
+HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]
+
+
+def summary(contact):
+    return None if contact is None else json.dumps(contact.to_json())
+
+
+@pytest.mark.parametrize("few", [0, 10**6], ids=["boxes", "all pairs of rows"])
+@pytest.mark.parametrize("family", sorted({**FAMILIES, **POINTS}))
+def test_families(family, few, monkeypatch):
+    for module in (pieces, linear_search):
+        monkeypatch.setattr(module, "FEW", few)
+    for seed in range(3):
+        scene = generate(family, seed)
+        if linear_pieces(scene) is not None:
+            assert summary(first_contact(scene)) == summary(PairsSearch(scene).run_to_contact())
+
+
+def test_some_families_are_searched_by_rows_and_others_are_not():
+    by_rows = {f for f in {**FAMILIES, **POINTS} if linear_pieces(generate(f, 0)) is not None}
+    assert {"convex", "row", "pieces", "stars", "combs", "linear_points"} <= by_rows
+    assert not {"turning", "deforming", "ballistic", "blobs"} & by_rows
+
+
+def odd(rng, x):
+    """A double, or one beside it, or a rational nearby that is no double."""
+    kind = rng.randrange(40)
+    if kind == 0:
+        return math.nextafter(x, rng.choice([-math.inf, math.inf]))
+    return QQ(*x.as_integer_ratio()) + QQ(1, 3 << 60) if kind == 1 else x
+
+
+def degenerate(rng):
+    """A few small bodies on a grid, some of their coordinates off by an ulp or less."""
+    bodies = []
+    far = rng.choice([0.0, 0.0, 1e6, 2.0**40])
+    for i in range(rng.randint(2, 4)):
+        x, y = far + 8 * i, rng.choice(HEIGHTS)
+        size = rng.randint(1, 5)
+        points = [
+            (odd(rng, x + rng.randrange(4)), odd(rng, y + rng.randrange(4))) for _ in range(size)
+        ]
+        speed = [odd(rng, rng.choice([-2.0, -1.0, 0.0, 1.0])) for _ in range(2)]
+        first = Translation([0, speed[0]], [0, speed[1]])
+        if rng.random() < 0.3:
+            back = Translation([speed[0]], [speed[1]])
+            bodies.append((points, Pieces([(1, first), (None, back)])))
+        else:
+            bodies.append((points, first))
+    return bodies
+
+
+def scenes(count, name):
+    rng = Random(name)
+    found = 0
+    while found < count:
+        try:
+            bodies = [
+                Body(f"b{i}", p, m, closed=rng.random() < 0.7)
+                for i, (p, m) in enumerate(degenerate(rng))
+            ]
+            scene = Scene(bodies, (0, rng.choice([1, 8, "100/3"])))
+        except ValueError:  # not simple
+            continue
+        found += 1
+        yield scene
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("few", [0, 10**6])
+@pytest.mark.parametrize("count", [150, pytest.param(5000, marks=pytest.mark.slow)])
+def test_close_to_degeneracy(few, count, monkeypatch):
+    for module in (pieces, linear_search):
+        monkeypatch.setattr(module, "FEW", few)
+    kinds = set()
+    for scene in scenes(count, f"close {few}"):
+        assert linear_pieces(scene) is not None
+        expected = reference.first_contact(scene)
+        contact = first_contact(scene)
+        assert disagreement(expected, contact) is None
+        kinds.update({None} if contact is None else {pair.kind for pair in contact.pairs})
+    assert kinds == {None, "vertex-edge", "vertex-vertex"}
+
+
+def test_along_the_line_of_an_edge():
+    """A vertex slides along the line of an edge: the contact is at the edge's end."""
+    table = Body("table", [(0, -1), (4, -1), (4, 0), (0, 0)])
+    for start, speed, time in ((-3, 2, 1.5), (9, -1, 5)):
+        for shape in ([(start, 0)], [(start, 0), (start, 3)], [(start, 0), (start, 2), (start, 5)]):
+            slider = Body("slider", shape, Translation([0, speed]), closed=False)
+            contact = first_contact(Scene([table, slider], (0, 10)))
+            expected = reference.first_contact(Scene([table, slider], (0, 10)))
+            assert contact.time == time
+            assert disagreement(expected, contact) is None
+
+
+def bits(rng, count):
+    """A random number below 1 with so many bits, and sign."""
+    return QQ(rng.randrange(1, 1 << count), 1 << count) * rng.choice([-1, 1])
+
+
+def beside(points, at, along, side):
+    """The points, mirrored at ``at`` where they are not on a side of its line."""
+    (x, y), (dx, dy) = at, along
+    return [
+        (u, v) if side * (dx * (v - y) - dy * (u - x)) > 0 else (2 * x - u, 2 * y - v)
+        for u, v in points
+    ]
+
+
+def touching_at_ends(rng, *, in_doubles, far):
+    """A segment whose end only touches the end of another, or a corner, and when.
+
+    They are on two sides of the path of that end.
+    """
+    time = QQ(rng.randint(1, 2000), 256)
+    long, short = (24, 12) if in_doubles else (40, 60)
+    w = bits(rng, long) / (1 if in_doubles else 3), bits(rng, long) / (1 if in_doubles else 3)
+    q = far + bits(rng, short), bits(rng, short)
+    start = q[0] - w[0] * time, q[1] - w[1] * time
+    side = rng.choice([-1, 1])
+    ends = [(q[0] + bits(rng, 30), q[1] + bits(rng, 30)) for _ in range(rng.randint(1, 2))]
+    back = [(start[0] + bits(rng, 30), start[1] + bits(rng, 30))]
+    body = [q, *beside(ends, q, w, side)]
+    moving = [start, *beside(back, q, w, -side)]
+    number = float if in_doubles else str
+    exact = all(QQ(*float(c).as_integer_ratio()) == c for p in (*body, *moving) for c in p)
+    scene = Scene(
+        [
+            Body(
+                "moving",
+                [tuple(map(number, p)) for p in moving],
+                Translation([0, number(w[0])], [0, number(w[1])]),
+            ),
+            Body("body", [tuple(map(number, p)) for p in body]),
+        ],
+        (0, 8),
+    )
+    return (scene, time) if exact or not in_doubles else None
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("in_doubles", [True, False])
+@pytest.mark.parametrize("far", [0, 1000])
+@pytest.mark.parametrize("few", [0, 10**6])
+def test_rounding_misses_no_end_that_is_touched(in_doubles, far, few, monkeypatch):
+    """At the end of an edge, or between two points, a filter without bounds misses contacts."""
+    for module in (pieces, linear_search):
+        monkeypatch.setattr(module, "FEW", few)
+    rng = Random(f"ends {in_doubles} {far}")
+    asked = 0
+    while asked < 250:
+        found = touching_at_ends(rng, in_doubles=in_doubles, far=far)
+        if found is not None:
+            asked += 1
+            contact = first_contact(found[0])
+            assert contact is not None
+            assert (contact.time, contact.kind) == (found[1], "vertex-vertex")
+            ends = [
+                Body(f"end{i}", [body.at(0)[0]], body.motion)
+                for i, body in enumerate(found[0].bodies)
+            ]
+            contact = first_contact(Scene(ends, (0, 8)))
+            assert contact is not None
+            assert contact.time == found[1]
+
+
+def test_two_segments_and_two_points_on_one_line():
+    for first, second in (([(0, 0), (1, 0)], [(5, 0), (7, 0)]), ([(0, 0)], [(5, 0)])):
+        scene = Scene([Body("a", first, Translation([0, 1])), Body("b", second)], (0, 10))
+        contact = first_contact(scene)
+        assert contact.kind == "vertex-vertex"
+        assert disagreement(reference.first_contact(scene), contact) is None
+
+
+def crowd(count, seed=0):
+    rng = Random(seed)
+    bodies = []
+    for i in range(count):
+        x, y = 4.0 * (i % 32) + rng.random(), 4.0 * (i // 32) + rng.random()
+        corners = [(x, y), (x + rng.random() + 0.2, y), (x, y + rng.random() + 0.2)]
+        velocity = rng.uniform(-1, 1), rng.uniform(-1, 1)
+        bodies.append((f"b{i}", corners, Translation([0, velocity[0]], [0, velocity[1]])))
+    return bodies
+
+
+def test_a_crowd_of_doubles_is_built_without_a_rational(monkeypatch):
+    """Neither vertices nor velocities are converted, and no exact predicate is asked."""
+    count = [0]
+
+    def counted(*_, **__):
+        count[0] += 1
+
+    bodies = crowd(200)
+    monkeypatch.setattr("exactpt.motion.shape.polynomial", counted)
+    monkeypatch.setattr("exactpt.motion.shape.rational", counted)
+    monkeypatch.setattr("exactpt.kernel.polynomial.rational", counted)
+    monkeypatch.setattr("exactpt.geometry.touching_rings.ring_meetings", counted)
+    Scene([Body(*body) for body in bodies], (0, 1))
+    assert count == [0]
+
+
+def test_exact_vertices_are_made_for_what_may_touch_alone():
+    scene = Scene([Body(*body) for body in crowd(200)], (0, 4))
+    contact = first_contact(scene)
+    made = [body for body in scene.bodies if body.exact_shape.is_exact]
+    assert contact is not None
+    assert len(made) < 40
+    assert summary(contact) == summary(PairsSearch(scene).run_to_contact())
+
+
+def test_points_and_normals_are_computed_on_demand(monkeypatch):
+    asked = []
+
+    def recorded(*arguments):
+        asked.append(1)
+        return incidences.details(*arguments)
+
+    monkeypatch.setattr("exactpt.pair.contact.details", recorded)
+    box = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    scene = Scene(
+        [Body("a", box, Translation([0, 1])), Body("b", [(x + 3, y) for x, y in box])], (0, 9)
+    )
+    contact = first_contact(scene)
+    assert (contact.time, contact.kind, asked) == (2, "vertex-vertex", [])
+    assert len(contact.pairs) == 2
+    assert contact.pairs is contact.pairs
+    assert len(asked) == 1
+    with pytest.raises(AttributeError, match="cannot be changed"):
+        contact.kind = "initial"
+
+
+def test_an_irrational_time_has_its_polynomial_whenever_it_is_asked():
+    ball = Body("ball", [(0, 2)], Translation([0], [0, 0, -1]))
+    scene = Scene([ball, Body("floor", [(-1, 0), (1, 0)])], (0, 9))
+    contact = first_contact(scene)
+    assert contact.time.polynomial == (-2, 0, 1)
+    again = Contact(contact.time, contact.kind, contact.pairs)
+    assert repr(again) == repr(contact)
+
+
+def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
+    """20 bodies of 100 pieces that keep away from each other: hardly two rows are compared."""
+    compared = []
+    monkeypatch.setattr(linear_search, "candidates_of", lambda *_: compared.append(1))
+    rng = Random(5)
+    bodies = []
+    for i in range(20):
+        since, x, pieces = QQ(0), QQ(0), []
+        for _ in range(99):
+            until, speed = since + QQ(rng.randint(1, 999), 5000), QQ(rng.randint(-3, 3))
+            if abs(x + speed * (until - since)) > 2:
+                speed = -speed
+            pieces.append((until, Translation([x - speed * since, speed], [0])))
+            since, x = until, x + speed * (until - since)
+        pieces.append((None, Translation([x], [0])))
+        bodies.append(Body(f"b{i}", [(9 * i, 0), (9 * i + 1, 0), (9 * i, 1)], Pieces(pieces)))
+    assert first_contact(Scene(bodies, (0, 10))) is None
+    assert len(compared) < 20
+
+
+def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
+    compared = []
+    candidates_of = linear_search.candidates_of
+
+    def recorded(a, b, *rest):
+        compared.append((a, b))
+        return candidates_of(a, b, *rest)
+
+    monkeypatch.setattr(linear_search, "candidates_of", recorded)
+    bodies = []
+    for i in range(40):
+        bodies += [
+            Body(f"a{i}", [(0, 9 * i), (1, 9 * i), (0, 9 * i + 1)], Translation([0, 1])),
+            Body(f"b{i}", [(5 + i, 9 * i), (6 + i, 9 * i), (5 + i, 9 * i + 1)]),
+        ]
+    assert first_contact(Scene(bodies, (0, 100))).time == 4
+    assert len(compared) < 8
+
+
+def test_boxes_of_pieces_contain_their_bodies():
+    rng = Random("pieces")
+    for _ in range(60):
+        scene = next(scenes(1, rng.random()))
+        moving = linear_pieces(scene)
+        origin = far_origin(scene.bodies) or (0, 0)
+        boxes = piece_boxes.PieceBoxes.of(moving)
+        low = rng.uniform(0, float(scene.end) / 2)
+        high = low + rng.uniform(0, float(scene.end) / 2)
+        active, places = boxes.during(low, high)
+        for k, (left, right, down, up) in zip(active.tolist(), places.tolist(), strict=True):
+            piece = moving[k]
+            for share in (0, QQ(1, 3), 1):
+                t = QQ(low) + share * (QQ(high) - QQ(low))
+                if piece.start <= t <= piece.end:
+                    drift = [QQ(float(d)) * t for d in boxes.drift]
+                    for x, y in scene.bodies[piece.body].at(t):
+                        assert left <= QQ(x) - origin[0] - drift[0] <= right
+                        assert down <= QQ(y) - origin[1] - drift[1] <= up
+
+
+def test_a_body_that_turns_has_no_linear_pieces():
+    turning = Body("mill", [(0, 0), (1, 0)], Rigid([0, 1]))
+    assert linear_pieces(Scene([turning], (0, 1))) is None
