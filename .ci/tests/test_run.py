@@ -101,7 +101,7 @@ def test_run_of_more_than_half_an_hour_fails(monkeypatch, capsys):
     [
         (None, ["fuzz", "benchmarks", ".ci"]),
         ([], []),
-        (["exactpt/pairs/near.py", "tests/unit/pairs/test_near.py", "fuzzy.py"], []),
+        (["exactpt/pairs/search.py", "tests/unit/pairs/test_search.py", "fuzzy.py"], []),
         (["fuzz/laws/table.py", "README.md"], ["fuzz"]),
         (
             ["benchmarks/tests/test_engines.py", ".github/workflows/night.yml"],
