@@ -45,7 +45,9 @@ def steps(console):
     """Return the commands of a console, each with the lines that it prints."""
     command, *more = re.split(r"^\$ ", console, flags=re.MULTILINE)
     assert command == "", "a console begins with a command"
-    return [(first, lines) for first, *lines in map(str.splitlines, more)]
+    found = [(first, lines) for first, *lines in map(str.splitlines, more)]
+    assert all(lines for _, lines in found), "below each command is a line that it prints"
+    return found
 
 
 def repository(folder):
