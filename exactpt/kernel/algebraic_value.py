@@ -93,7 +93,7 @@ def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
     common = greatest_common_divisor(p, d)
     if len(common) > 1:
         p = quotient(p, common)
-    return _root_near(_norm_in_y(p, n, d), lambda: _range(n, d, t))
+    return _root_near(_norm_in_y(p, n, d), lambda: _range(n, d, t), t)
 
 
 def quotient_range(n: IntPoly, d: IntPoly, t: AlgebraicNumber, close: QQ) -> tuple[QQ, QQ]:
@@ -103,6 +103,7 @@ def quotient_range(n: IntPoly, d: IntPoly, t: AlgebraicNumber, close: QQ) -> tup
     """
     low, high = _range(n, d, t)
     while high - low > close * high and t.exact_high - t.exact_low > FINE:
+        t.refine()
         low, high = _range(n, d, t)
     return low, high
 
@@ -114,20 +115,27 @@ def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
     polynomial: list[ZZ] = []
     for c in y.exact_polynomial:
         polynomial += [c, ZZ(0)]
-    return _root_near(trimmed(polynomial), lambda: _range_of_root(y))
+    return _root_near(trimmed(polynomial), lambda: _range_of_root(y), y)
 
 
-def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumber:
-    """Return the root of f in the intervals that are narrowed around it, one by one."""
+def _root_near(
+    f: IntPoly, bounds: Callable[[], tuple[QQ, QQ]], number: AlgebraicNumber
+) -> AlgebraicNumber:
+    """Return the root of f between bounds that depend on a number.
+
+    The number is refined only while its present enclosure does not suffice. Callers ask about the
+    same number again and again, and each step of refinement doubles its digits.
+    """
     f = square_free(f)
     sequence = sturm_sequence(f)
     while True:
-        low, high = narrow()
+        low, high = bounds()
         if low == high:
             return AlgebraicNumber(low)
         low, high = _rounded_out(low, high)
         if count_roots(sequence, low, high) == 1 and evaluate(f, low) != 0:
             return AlgebraicNumber.exact_root(f, low, high)
+        number.refine()
 
 
 def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
@@ -140,19 +148,17 @@ def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
 
 
 def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
-    """Return bounds of n(t) / d(t); they narrow with every call."""
-    while True:
+    """Return bounds of n(t) / d(t), by an enclosure of t on which d does not vanish."""
+    low, high = range_on(d, t.exact_low, t.exact_high)
+    while low <= 0 <= high:
         t.refine()
         low, high = range_on(d, t.exact_low, t.exact_high)
-        if low > 0 or high < 0:
-            break
     ends = [x / y for x in range_on(n, t.exact_low, t.exact_high) for y in (low, high)]
     return min(ends), max(ends)
 
 
 def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
-    """Return bounds of the square root of y; they narrow with every call."""
-    y.refine()
+    """Return bounds of the square root of y, by an enclosure of it that is positive."""
     while y.exact_low <= 0 and not y.is_rational:
         y.refine()
     if y.is_rational and is_square(y.exact_low.numerator) and is_square(y.exact_low.denominator):
