@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from fractions import Fraction
-from math import isqrt, nextafter
+from math import isinf, isqrt, nextafter
 from random import Random
 from typing import Final, NamedTuple
 
@@ -84,8 +85,14 @@ def _check_double(one: Distance, value: Enclosure) -> None:
         Difference: if it is.
     """
     double = float(one)
+    if isinf(double):
+        if value.high <= sys.float_info.max:
+            raise Difference("double", f"{double!r} of {one!r}, which is in the range of doubles")
+        return
     off = abs(Fraction(double) - value.low)
     width = value.high - value.low
     for neighbour in (nextafter(double, 0.0), nextafter(double, float("inf"))):
+        if isinf(neighbour):
+            continue
         if abs(Fraction(neighbour) - value.low) + width < off:
             raise Difference("double", f"{double!r} of {one!r}, but {neighbour!r} is nearer")
