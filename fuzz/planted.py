@@ -357,7 +357,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "a term of an error forgotten": Mistake(
         "One of the terms of a bound is left out, which only large edges show.",
-        Edit(near_features, "_may_be_least", "far * off_edge + ", ""),
+        Edit(near_features, "may_be_least", "far * off_edge + ", ""),
     ),
     "times before 0 forgotten": Mistake(
         "The largest size of a time is taken to be that of the end of its span.",
