@@ -89,7 +89,7 @@ def test_run_of_more_than_half_an_hour_fails(monkeypatch, capsys):
     names = script["main"].__globals__
     monkeypatch.setitem(names, "LIMIT", 0)
     monkeypatch.setitem(names, "steps", lambda _: [["test"]])
-    took = script["Took"]("make test", 61, 100)
+    took = script["Took"]("make test", 100, 122)
     monkeypatch.setitem(names, "made", lambda _: (took, []))
 
     assert script["main"]([]) == 1

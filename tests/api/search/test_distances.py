@@ -290,7 +290,7 @@ def test_surroundings_of_unusable_names_and_distances_are_refused():
 
 
 def test_bug_a_least_distance_that_was_read_again_and_again_doubled_its_digits():
-    """The square at time t is t^2 + (t^2 - t + 1)^2; 2 t^3 - 3 t^2 + 4 t - 1 has no rational root."""
+    """It is least at the root of 2 t^3 - 3 t^2 + 4 t - 1, which is not rational."""
     moving = Body("moving", [(0, 0)], Translation([0, 1], [1, -1, 1]))
     least = clearance(Scene([Body("a", [(0, 0)]), moving], time=(-2, 2)), "a", "moving").minimum
     distances = [least.distance for _ in range(40)]
