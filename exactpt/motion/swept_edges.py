@@ -108,16 +108,16 @@ class SweptEdges:
         longest = longest or end - start
         normalization = self.vertices.normalization
         since, until = normalization.time(start)[0], normalization.time(end)[1]
-        times = [since, since + INSTANT]
-        if len(self._first) > (1 if self.deforms.any() else 2) and len(self.ids) <= FEW:
-            times += np.linspace(since, until, SAMPLES).tolist()
-        places = self.boxes.places(times)
-        relevant = self._relevant(places[2:])
+        all_count = 1 if self.deforms.any() else 2  # of so few bodies none is left out
+        looks_ahead = len(self._first) > all_count and len(self.ids) <= FEW
+        ahead = np.linspace(since, until, SAMPLES).tolist() if looks_ahead else []
+        here, there, *later = self.boxes.places([since, since + INSTANT, *ahead])
+        relevant = self._relevant(np.array(later))
         many = many or int(relevant.sum()) + 32
-        first = self._first_length(longest, places[0, relevant], places[1, relevant])
+        first = self._first_length(longest, here[relevant], there[relevant])
         bodies_of = bodies_of or self._bodies_of
         held: set[int] = set()  # bodies that have been near others, or seem to come near them
-        if len(times) > 2:
+        if looks_ahead:
             held.update(self.body[relevant].tolist())
         release = 2 * PATIENCE  # the number of slabs after which they are looked at anew
 
