@@ -17,7 +17,6 @@ from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.search.linear import pair_search
 from exactpt.search.query import Selection
-from exactpt.tiling import catalogue
 
 METHODS: Final = ("kinetic", "pairs", "auto")
 """Names of the methods of `first_contact`."""
@@ -74,6 +73,8 @@ def first_contact(
     """
     if method not in METHODS:
         raise InputError(f"no method {shorten(method)}; there are: {', '.join(METHODS)}")
+    from exactpt.tiling import catalogue  # the command, which asks `search_for`, needs no tiling
+
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     a_scene(scene)
     with bounded(max_seconds, max_memory), carrying(lambda: scene):
