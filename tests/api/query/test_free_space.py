@@ -233,3 +233,37 @@ def test_hit_has_no_other_attributes(hit):
         _ = hit.distance
     with pytest.raises(AttributeError, match="cannot assign to field 'at'"):
         hit.at = 1
+
+
+# Where doubles decide nothing, or help nothing
+
+
+def test_ray_beside_a_corner_hits_the_edge_on_its_side():
+    """It passes (7, 9) to the left, by 2^-40 in x: edge 0 goes from there to (6, 9).
+
+    The places at which it crosses the two edges of a tile that meet in the corner are so near each
+    other that doubles do not order them.
+    """
+    space = space_of(
+        Body("triangle", [(6, 9), (7, 9), (7, 10)]),
+        Body("left", [(0, 24), (1, 24), (0, 25)]),
+        Body("low", [(0, 6), (1, 6), (0, 7)]),
+    )
+    beside = Fraction(1, 2**40)
+
+    hit = space.ray_cast((42 - beside, -71), (-7, 16))
+
+    assert (hit.body, hit.edge, hit.at) == ("triangle", 0, 5)
+    assert hit.point == (7 - beside, 9)
+
+
+def test_point_far_from_all_vertices_is_located_between_two_crowds():
+    """Cells around it have no vertices, of 75 around (0, 0) and 75 around (10^6, 10^6)."""
+    corners = [(far + 3 * i, far + 3 * j) for far in (0, 10**6) for i in range(5) for j in range(5)]
+    space = space_of(*(Body(f"{x} {y}", [(x, y), (x + 1, y), (x, y + 1)]) for x, y in corners))
+    between = 5 * 10**5
+
+    assert space.locate((between, between)).kind == "tile"
+    assert space.locate((between, -between)).kind == "outside"
+    hit = space.ray_cast((between, between), (1, 1))
+    assert (hit.body, hit.vertex) == ("1000000 1000000", 0)

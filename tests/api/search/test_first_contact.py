@@ -232,3 +232,26 @@ def test_kind_with_a_self_contact_at_the_same_time():
     assert kind(fold("a", 0), fold("b", 5)) == ("self", ["vertex-edge"])
     assert kind(fold("a", 0), p, q) == ("vertex-vertex", ["vertex-edge", "vertex-vertex"])
     assert kind(fold("a", 0), p, Body("q", [(10, -1), (10, 1)])) == ("vertex-edge", ["vertex-edge"])
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
+def test_first_contact_of_the_only_body_whose_motion_is_in_no_doubles_is_exact(tiling):
+    """A tiling of many bodies begins in arrays of doubles, if these hold all numbers.
+
+    The shift of the body cancels its coordinates but for 100/3. As a double, it would be off by
+    as much, and the body inside the next one. Its right corner moves from 256 - 100/3 to the next
+    body, at 236, at speed 1/3: in 40.
+    """
+    far, size = 2**60, 256  # the difference of two doubles near 2^60
+    outline = [(0, 0), (size, 0), (0, size)]
+    first = Body(
+        "first",
+        [(far + x, y) for x, y in outline],
+        Translation([f"{-3 * far - 100}/3", "1/3"]),
+    )
+    others = [Body(f"b{k}", [(236 + 10 * size * k + x, y) for x, y in outline]) for k in range(30)]
+
+    contact = first_contact(Scene([first, *others], (0, 90)), method="kinetic", tiling=tiling)
+
+    assert contact.time == 40
+    assert {(pair.body, pair.other) for pair in contact.pairs} == {("first", "b0")}

@@ -97,3 +97,24 @@ def test_first_contact_beside_a_large_body_compares_nothing_more() -> None:
             assert first_contact(scene, method="pairs") is None
         looks.append(clock.looks)
     assert looks[1] <= looks[0] + 4
+
+
+@pytest.mark.parametrize("exponent", [-1072, 0, 1016])
+def test_first_contact_of_leaning_planks_at_the_ends_of_doubles_is_exact(exponent: int) -> None:
+    """The boxes of 30 parallel planks overlap, so that rectangles along them are compared.
+
+    A rectangle's direction cannot be normalised where it is subnormal, and the sizes of four
+    vertices overflow at the other end. Edges 3 apart in x meet at speed 1 at t = 3.
+    """
+    unit = 2.0**exponent
+    outline = [(0, 0), (1, 0), (101, 100), (100, 100)]
+    planks = [
+        Body(f"b{k}", [((4 * k + x) * unit, y * unit) for x, y in outline]) for k in range(30)
+    ]
+    planks[0] = planks[0].with_motion(Translation([0, unit]))
+
+    contact = first_contact(Scene(planks, (0, 9)), method="pairs")
+
+    assert contact is not None
+    assert contact.time == 3
+    assert {(pair.body, pair.other) for pair in contact.pairs} == {("b0", "b1")}

@@ -104,7 +104,7 @@ def test_many_new_motions_of_one_body_leave_the_last_one(tiling):
     """Motions that no body has any more are forgotten. At speed 1 it is at 8 at t = 8."""
     simulation = at(two_boxes(), 2)
     for k in range(200):
-        simulation.set_motion("left", Translation([2 - 2 * (k % 7), k % 7], [0]))
+        simulation.set_motion("left", Translation([2 - 2 * k, k], [0]))  # all are at 2 at t = 2
     simulation.set_motion("left", Translation([0, 1]))
 
     audit(simulation)
@@ -328,3 +328,23 @@ def test_body_with_holes_that_stops_keeps_its_rings():
     frame = simulation.body("frame").halted(4)
     assert frame.parts == simulation.body("frame").parts
     assert frame == room().bodies[0]
+
+
+@pytest.mark.parametrize("tiling", ["lazy", "mixed"])
+def test_body_with_reflex_corners_that_closes_touches_itself(tiling):
+    """It is added while others are there, and its inside is tiled, as it deforms.
+
+    The tip of the right arm moves from x = 7 to that of the left one, at x = 1: at t = 6.
+    """
+    simulation = Simulation(
+        Scene([Body("far", [(50, 0), (51, 0), (50, 1)])], (0, 20)), tiling=tiling
+    )
+    tip = {"x": [7, -1], "y": [5]}
+    grip = Body("grip", [(7, 1), (1, 1), (1, 5), (0, 5), (0, 0), (8, 0), (8, 5), tip])
+
+    simulation.add(grip)
+
+    audit(simulation)
+    assert simulation.stats["rebuilds"] == 0  # a diagonal outside the ring would need one
+    contact = simulation.run_to_contact()
+    assert (contact.time, contact.kind) == (6, "self")

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from exactpt import AuditError, Body, BudgetExceeded, Scene, Simulation, first_contact
+from exactpt import AuditError, Body, BudgetExceeded, Scene, Simulation, first_contact, testing
 from exactpt.testing import audit, ending_at
 from exactpt.testing.scenes import generate
 from fuzz.planted import PLANTED
@@ -79,3 +79,8 @@ def test_ending_at_other_threads_and_later_calls_have_the_real_time():
 
     assert time.monotonic is real
     assert 0.0 < seen[0] <= time.monotonic()
+
+
+def test_name_that_testing_does_not_have_is_an_attribute_error():
+    with pytest.raises(AttributeError, match=r"exactpt\.testing' has no attribute 'no_such"):
+        testing.no_such_name  # noqa: B018 - it raises
