@@ -8,7 +8,7 @@ from math import inf, nextafter
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt import FreeSpace, Scene, Simulation, UnreachableError
+from exactpt import FreeSpace, InputError, Scene, Simulation, UnreachableError
 from exactpt.geometry.predicates import orient2d
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.query.answers import PLACES, Place
@@ -256,12 +256,16 @@ def _check_neighbours(space: FreeSpace, bodies: Places) -> None:
 
 
 def paths_are_shortest(scene: Scene, random: Random) -> str:
-    """Shortest paths are as long as those in the visibility graph, from both ends."""
+    """Shortest paths are as long as those in the visibility graph, from both ends.
+
+    None leads into a body.
+    """
     space, bodies, _ = a_space(scene, random)
     outcome = "no path"
     for _ in range(PATHS):
         p, q = some_point(random, bodies), some_point(random, bodies)
         if _is_inside(p, bodies) or _is_inside(q, bodies):
+            _check_no_path(space, p, q)
             continue
         expected = shortest_length(bodies, p, q)
         for start, goal in ((p, q), (q, p)):
@@ -273,6 +277,16 @@ def paths_are_shortest(scene: Scene, random: Random) -> str:
                 raise Difference("path", f"from {start} to {goal}: {found}, not {expected}")
         outcome = "unreachable" if expected is None else "a path"
     return outcome
+
+
+def _check_no_path(space: FreeSpace, p: Point, q: Point) -> None:
+    """Check that a path between points of which one is inside a body is refused."""
+    for find in (space.shortest_path, space.path):
+        try:
+            path = find(p, q)
+        except InputError:
+            continue
+        raise Difference("path from inside a body", f"from {p} to {q}: {path}")
 
 
 def _path_length(space: FreeSpace, start: Point, goal: Point) -> Length | None:

@@ -142,7 +142,6 @@ LAWS: Final[dict[str, Law]] = {
             "pair",
             "planks",
         ),
-        share=0.5,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
