@@ -156,8 +156,8 @@ def history_is_what_happened(scene: Scene, random: Random) -> str:
     A body with an angle error has a life for each point about which it turns.
     """
     tiling = a_tiling(scene, random)
-    bodies = [_with_an_angle_error(body, random) for body in scene.bodies]
-    scene = Scene(bodies, (scene.start, scene.end))
+    erring = [_with_an_angle_error(body, random) for body in scene.bodies]
+    scene = Scene(erring, (scene.start, scene.end))
     journey = Journey(scene, tiling, random, record=True)
     for _ in journey.events():
         pass

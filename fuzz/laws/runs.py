@@ -224,17 +224,18 @@ def _parting_speed(run: Simulation, contact: Contact) -> float | None:
 
     The point of the edge that is nearest to the vertex has a velocity between those of its ends.
     """
-    if len(contact.pairs) != 1 or contact.pairs[0].edge is None:
+    if len(contact.pairs) != 1:
         return None
     (pair,) = contact.pairs
-    if pair.normal is None or pair.body == pair.other:
+    if pair.edge is None or pair.normal is None or pair.body == pair.other:
         return None
     one, other, now = run.body(pair.body), run.body(pair.other), run.now.low
     start, end = pair.edge, other.end_of_edge(pair.edge)
     ax, ay, bx, by = (*other.at(now)[start], *other.at(now)[end])
     px, py = one.at(now)[pair.vertex]
     dx, dy = bx - ax, by - ay
-    part = min(max(((px - ax) * dx + (py - ay) * dy) / (dx * dx + dy * dy), Fraction(0)), 1)
+    foot = ((px - ax) * dx + (py - ay) * dy) / (dx * dx + dy * dy)
+    part = min(max(foot, Fraction(0)), Fraction(1))
     u, v = one.velocity_at(now)[pair.vertex]
     velocities = other.velocity_at(now)
     w, z = (a + part * (b - a) for a, b in zip(velocities[start], velocities[end], strict=True))

@@ -282,6 +282,7 @@ LAWS: Final[dict[str, Law]] = {
             "points",
             "rings",
             "pair",
+            "tiny/one point",
         ),
         share=1.5,
         most=40,

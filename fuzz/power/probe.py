@@ -33,12 +33,12 @@ class _Place(NamedTuple):
     """A place in a list of statements, before one of them."""
 
     block: list[ast.stmt]
-    index: int
+    number: int
 
     @property
     def statement(self) -> ast.stmt:
         """The statement."""
-        return self.block[self.index]
+        return self.block[self.number]
 
 
 def insert_probe(function: ast.FunctionDef, line: int) -> None:
@@ -52,7 +52,7 @@ def insert_probe(function: ast.FunctionDef, line: int) -> None:
     (sets_it,) = ast.parse(f"{NAME}.is_reached = True").body
     for node in ast.walk(sets_it):
         ast.copy_location(node, innermost.statement)
-    innermost.block.insert(innermost.index, sets_it)
+    innermost.block.insert(innermost.number, sets_it)
 
 
 def _places(function: ast.FunctionDef) -> Iterator[_Place]:
@@ -61,7 +61,7 @@ def _places(function: ast.FunctionDef) -> Iterator[_Place]:
         for field in ("body", "orelse", "finalbody"):
             block = getattr(node, field, None)
             if isinstance(block, list):
-                yield from (_Place(block, index) for index in range(len(block)))
+                yield from (_Place(block, number) for number in range(len(block)))
 
 
 def probed(wrong: Callable[..., Any]) -> Callable[..., Any]:
