@@ -52,6 +52,9 @@ BOUNCES: Final = 4
 MASSES: Final = (1, 2, 7)
 """Masses of bodies that bounce."""
 
+FAST: Final = 2**30
+"""Speed up to which a double is off by less than a speed of separation is compared to."""
+
 SLOWEST: Final = 1 / 16
 """Least speed of separation after a `Bounce`."""
 
@@ -222,6 +225,7 @@ def bounces_are_first_contacts(scene: Scene, random: Random) -> str:
 def _parting_speed(run: Simulation, contact: Contact) -> float | None:
     """Return the speed at which a vertex leaves the only edge that it touches, along the normal.
 
+    None if it touches more, or one of them is so fast that the rounding of doubles would show.
     The point of the edge that is nearest to the vertex has a velocity between those of its ends.
     """
     if len(contact.pairs) != 1:
@@ -239,6 +243,8 @@ def _parting_speed(run: Simulation, contact: Contact) -> float | None:
     u, v = one.velocity_at(now)[pair.vertex]
     velocities = other.velocity_at(now)
     w, z = (a + part * (b - a) for a, b in zip(velocities[start], velocities[end], strict=True))
+    if max(map(abs, (u, v, w, z))) > FAST:
+        return None
     return pair.normal[0] * float(u - w) + pair.normal[1] * float(v - z)
 
 
