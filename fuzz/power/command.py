@@ -129,11 +129,10 @@ def power(
     \b
     Examples:
       python -m fuzz power --seconds 20
-      python -m fuzz power --record laws.coverage
-      python -m fuzz power --mutants 40 --part pair --part search \\
-        --reached laws.coverage --results pairs.jsonl
+      python -m fuzz power --mutants 40 --part pair --part search --results search.jsonl
+      python -m fuzz power --again search.jsonl --results again.jsonl
       python -m fuzz power --mutants 40 --part search --tests tests/unit/search \\
-        --reached laws.coverage --reached .coverage --results pairs.jsonl
+        --reached .coverage --results search.jsonl
     """
     named = [law for law in LAWS if not chosen or law.startswith(chosen)]
     laws = [law for law in runnable(named) if LAWS[law].needs != COPY]
