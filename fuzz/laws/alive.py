@@ -12,7 +12,7 @@ from random import Random
 from typing import Final
 
 import exactpt
-from exactpt import Body, RunEvent, Scene, Simulation
+from exactpt import Body, InputError, Rigid, RunEvent, Scene, Simulation
 from exactpt.simulation.history import History
 from exactpt.testing import audit, reference
 from exactpt.testing.agreement import plain_contact
@@ -46,8 +46,10 @@ def changed_run_is_a_new_scene(scene: Scene, random: Random) -> str:
     for _ in journey.events(lambda journey: audit(journey.run)):
         pass
     run = journey.run
+    check_equal("number of changes", run.stats["plans"], journey.changes)
     if run.contact is not None or run.now >= run.scene.end or not run.now.simplified().is_rational:
         return f"{tiling}, to the end"
+    _check_jump_is_refused(run, random)
     rest = Scene(run.scene.bodies, (run.now.low, run.scene.end))
     contact = run.run_to_contact()
     if rest.vertex_count <= SMALL:
@@ -56,6 +58,29 @@ def changed_run_is_a_new_scene(scene: Scene, random: Random) -> str:
         by_pairs = exactpt.first_contact(rest, method="pairs")
         check_equal("contact, by pairs", plain_contact(contact), plain_contact(by_pairs))
     return f"{tiling}, {'no contact' if contact is None else 'a contact'}"
+
+
+def _check_jump_is_refused(run: Simulation, random: Random) -> None:
+    """Check that a body at rest which is given with a vertex elsewhere is refused.
+
+    Raises:
+        Difference: if it is not.
+    """
+    simple = [body for body in run.scene.bodies if not body.has_rings and not body.keyframes]
+    if not simple:
+        return
+    chosen = random.choice(simple)
+    run.set_motion(chosen.name, chosen.halted(run.now.low))
+    rest = run.body(chosen.name)
+    (x, y), *others = rest.at(run.now.low)
+    moved = Body(rest.name, [(x + 1, y), *others], rest.motion, closed=rest.closed)
+    before = run.to_json()
+    try:
+        run.set_motion(rest.name, moved)
+    except InputError:
+        check_equal("state after a refused jump", run.to_json(), before)
+    else:
+        raise Difference("jump", f"{moved!r} is accepted in the place of {rest!r}")
 
 
 def pockets_are_tiled_again(scene: Scene, random: Random) -> str:
@@ -126,8 +151,13 @@ WAYS: Final[dict[str, Callable[[Simulation], Simulation]]] = {
 
 
 def history_is_what_happened(scene: Scene, random: Random) -> str:
-    """The history of a run has its bodies where they were, and a mark for each change."""
+    """The history of a run has its bodies where they were, and a mark for each change.
+
+    A body with an angle error has a life for each point about which it turns.
+    """
     tiling = a_tiling(scene, random)
+    erring = [_with_an_angle_error(body, random) for body in scene.bodies]
+    scene = Scene(erring, (scene.start, scene.end))
     journey = Journey(scene, tiling, random, record=True)
     for _ in journey.events():
         pass
@@ -146,6 +176,13 @@ def history_is_what_happened(scene: Scene, random: Random) -> str:
         contact = exactpt.first_contact(past, method="pairs")
         check_equal("contact in the history", plain_contact(contact), plain_contact(run.contact))
     return f"{tiling}, {'one scene' if history.is_scene else 'several lives'}"
+
+
+def _with_an_angle_error(body: Body, random: Random) -> Body:
+    """Return a body that turns with an angle error, perhaps, and any other one as it is."""
+    if isinstance(body.motion, Rigid) and random.random() < 0.5:
+        return body.with_errors(angle_error=Fraction(1, 1000))
+    return body
 
 
 def _check_lives(

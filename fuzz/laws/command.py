@@ -26,6 +26,7 @@ from fuzz.laws.runner import (
     cases_of,
     costs,
     count_of,
+    favour,
     look,
     run_for,
     runnable,
@@ -110,7 +111,7 @@ def run(
     click.echo(f"{len(laws)} laws, seed {seed}")
     if tier is None:
         favoured = [] if weekday is None else laws[weekday - 1 :: 7]
-        looked = run_for(laws, seed, 60.0 if seconds is None else seconds, favoured)
+        looked = run_for(laws, seed, 60.0 if seconds is None else seconds, favour(favoured))
     else:
         looked = (look(case) for law in laws for case in cases_of(law, seed, count_of(law, tier)))
     tally, reports, is_interrupted = Tally(), _Reports(shrink), False

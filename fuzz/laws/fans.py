@@ -7,7 +7,7 @@ from itertools import pairwise
 from random import Random
 from typing import TypeAlias
 
-from exactpt import RunEvent, Scene, Simulation
+from exactpt import Body, RunEvent, Scene, Simulation, onward
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import fraction
 from exactpt.pseudotriangulation.snapshot import Snapshot
@@ -15,7 +15,7 @@ from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.runs import restored
 from fuzz.witnesses import Difference, tilings_of
 
-__all__ = ["fan_events_lead_from_fan_to_fan"]
+__all__ = ["fan_events_lead_from_fan_to_fan", "fan_goes_on_after_a_change"]
 
 Edges: TypeAlias = set[frozenset[str]]
 """Edges by the names of their ends."""
@@ -50,9 +50,42 @@ def fan_events_lead_from_fan_to_fan(scene: Scene, random: Random) -> str:
     events += run.run()
     others = [event.to_json() for event in events if event.kind != "fan"]
     check_equal("events of other kinds", others, [event.to_json() for event in expected])
-    changes = sum(len(e.removed) + len(e.added) for e in events if e.kind == "fan")
+    changes = _count_changes(events)
     check_equal("number of changes", run.stats["fan_changes"], changes)
     return "changes" if changes else "no changes"
+
+
+def fan_goes_on_after_a_change(scene: Scene, random: Random) -> str:
+    """Events lead a fan over new motions and points that go, and all of its changes are counted."""
+    refuse_unless(scene.bodies and "incremental" in tilings_of(scene))
+    run = Simulation(scene, tiling="incremental", fan=True)
+    refuse_unless(run.contact is None)
+    span, place = scene.end - scene.start, Fraction(random.randint(1, 99), 101)
+    events = list(run.run(until=scene.start + place * span))
+    refuse_unless(run.contact is None)
+    before = _triangulation(run.tiling)
+    if random.random() < 0.5:
+        run.remove(random.choice(scene.bodies).name)  # the tiling is built anew
+    else:
+        chosen = random.sample(scene.bodies, random.randint(1, min(3, len(scene.bodies))))
+        run.set_motions({body.name: _in_any_direction(body, run, random) for body in chosen})
+    later = list(run.run(until=scene.end - (1 - place) * span / 7))
+    if run.contact is None:
+        check_equal("fan after a change", _changed(before, later), _triangulation(run.tiling))
+    changes = _count_changes([*events, *later])
+    check_equal("number of changes", run.stats["fan_changes"], changes)
+    return "changes" if changes else "no changes"
+
+
+def _in_any_direction(body: Body, run: Simulation, random: Random) -> Body:
+    """Return a body that goes on from where it is now."""
+    velocity = random.randint(-4, 4), random.randint(-4, 4)
+    return body.with_motion(onward(body, run.now.low, velocity))
+
+
+def _count_changes(events: list[RunEvent]) -> int:
+    """Return the number of edges that enter or leave the fan by some events."""
+    return sum(len(e.removed) + len(e.added) for e in events if e.kind == "fan")
 
 
 def _between(times: list[AlgebraicNumber]) -> list[Fraction]:

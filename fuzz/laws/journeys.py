@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import islice
+from itertools import islice, pairwise
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
@@ -121,6 +121,16 @@ class Journey:
         gone = (Fraction(now) - start) // self._part
         return min(scene.end, start + self._part * (gone + self._random.randint(1, 12)))
 
+    @property
+    def changes(self) -> int:
+        """The number of bodies that have come, gone, or got another motion."""
+        named = [{body.name: body for body in moment.bodies} for moment in self.moments]
+        return sum(
+            before.get(name) is not after.get(name)
+            for before, after in pairwise(named)
+            for name in before.keys() | after.keys()
+        )
+
     def _note(self) -> None:
         self.moments.append(Moment(self.run.now.low, tuple(self.run.scene.bodies)))
 
@@ -215,6 +225,8 @@ class Journey:
             kinds += ["rest", "straight", "straight", "falling", "there and back"]
             kinds += ["deforming"] if body.size > 1 else []
             kinds += ["turning"] if body.size > 1 and not body.angle_error else []
+        if isinstance(body.motion, Rigid) and body.angle_error and self._random.random() < 0.5:
+            return self._about_another_point(body, body.motion, now)
         kind = self._random.choice(kinds)
         if kind == "straight":
             return rest.with_motion(Translation(x, y))
@@ -232,6 +244,20 @@ class Journey:
         if kind == "deforming" and not body.has_rings:
             return self._deforming(rest, now)
         return rest
+
+    def _about_another_point(self, body: Body, motion: Rigid, now: Fraction) -> Body:
+        """Return a body with an angle error that goes on turning, about one of its vertices."""
+        plain = body.with_errors()
+        pivot = self._random.choice(plain.with_motion(Translation()).at(now))
+
+        def moved_by(x: Fraction, y: Fraction) -> Body:
+            turning = Rigid(
+                motion.half_turn, pivot=pivot, x=[x], y=[y], orientation=motion.orientation
+            )
+            return plain.with_motion(turning)
+
+        (x, y), (u, v) = plain.at(now)[0], moved_by(Fraction(0), Fraction(0)).at(now)[0]
+        return moved_by(x - u, y - v).with_errors(angle_error=body.angle_error)
 
     def _deforming(self, rest: Body, now: Fraction) -> Body:
         """Return a body whose vertices have different velocities."""

@@ -31,7 +31,12 @@ from fuzz.laws.runs import restored
 from fuzz.laws.tilings import a_tiling
 from fuzz.witnesses import Difference, tilings_of
 
-__all__ = ["ended_run_is_true", "ended_search_is_true", "searches_look_at_the_clock"]
+__all__ = [
+    "ended_run_is_true",
+    "ended_search_is_true",
+    "numbers_of_events_are_kept",
+    "searches_look_at_the_clock",
+]
 
 SECONDS: Final = 1.0
 """A limit, which is over when the clock strikes."""
@@ -152,6 +157,28 @@ def ended_run_is_true(scene: Scene, random: Random) -> str:
         return f"{tiling}, in an event"
     check_equal("events after", rest, events[len(reported) :])
     return f"{tiling}, between events"
+
+
+def numbers_of_events_are_kept(scene: Scene, random: Random) -> str:
+    """A run that may report some events reports these, and then no other one."""
+    tiling = a_tiling(scene, random)
+    whole = Simulation(scene, tiling=tiling)
+    events = [event.to_json() for event in whole.run()]
+    # The contact that ends a run is reported in any case.
+    number = len(events) - (whole.contact is not None)
+    most = random.randint(0, number)
+    run = Simulation(scene, tiling=tiling, max_events=most)
+    reported: list[object] = []
+    try:
+        for event in run.run():
+            reported.append(event.to_json())  # noqa: PERF401 - those until the number is reached
+    except BudgetExceeded as spent:
+        _check_free("reached", whole.contact, spent.reached)
+        check_equal("events before", reported, events[:most])
+        return f"{tiling}, some events left"
+    check_equal("events", reported, events)
+    check_equal("number of events", most, number)
+    return f"{tiling}, all events"
 
 
 # Looks

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import time as clock
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 from exactpt import InputError, Scene
 from exactpt.testing import shrink
@@ -20,8 +20,9 @@ from fuzz.laws.table import LAWS
 from fuzz.limits import TooSlow, limit, signed
 from fuzz.witnesses import Difference, LeftOutError
 
-__all__ = ["TIERS", "Case", "Fault", "Looked", "Tally", "case_of", "cases_of", "count_of",
-           "laws_of_cases", "look", "run_for", "runnable", "scene_of", "shrunk"]  # fmt: skip
+__all__ = ["TIERS", "Case", "Fault", "Looked", "Tally", "Worth", "case_of", "cases_of",
+           "cost_of", "count_of", "favour", "laws_of_cases", "look", "run_for", "runnable",
+           "scene_of", "shrunk"]  # fmt: skip
 
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a case counts as hanging."""
@@ -50,6 +51,9 @@ TOO_LARGE: Final = "too large"
 KNOWN_FAULT: Final = "known to be broken"
 SILENT: Final = (NOT_ASKED, NO_SCENE, TOO_LARGE)
 """Outcomes of cases in which a law says nothing."""
+
+Worth: TypeAlias = Callable[[str], float]
+"""The factor by which the share of a law in the time is multiplied."""
 
 
 class Case(NamedTuple):
@@ -235,11 +239,16 @@ def costs() -> dict[str, float]:
     return recorded
 
 
+def cost_of(law: str) -> float:
+    """Return the milliseconds of a case of a law, as recorded."""
+    return costs().get(law, USUAL)
+
+
 def count_of(law: str, tier: str) -> int:
     """Return the number of cases of a law in a tier: the same on every machine."""
     shares = sum(one.share for one in LAWS.values())
     seconds = TIERS[tier] * LAWS[law].share / shares
-    count = max(len(LAWS[law].sources), round(1000 * seconds / costs().get(law, USUAL)))
+    count = max(len(LAWS[law].sources), round(1000 * seconds / cost_of(law)))
     most = LAWS[law].cases
     return count if most is None else min(count, most)
 
@@ -261,22 +270,26 @@ def laws_of_cases(needs: str = "") -> list[str]:
     ]
 
 
+def favour(laws: Collection[str]) -> Worth:
+    """Return that some laws have `FAVOUR` times their share."""
+    return lambda law: FAVOUR if law in laws else 1.0
+
+
 def run_for(
-    laws: Sequence[str], seed: int, seconds: float, favoured: Collection[str] = ()
+    laws: Sequence[str], seed: int, seconds: float, worth: Worth = lambda _: 1.0
 ) -> Iterator[Looked]:
     """Check cases of some laws in turn; that with the least time for its share is next.
 
     Args:
-        laws: the laws.
+        laws: the laws; of those without a case so far, the first one here is next.
         seed: the seed of the cases.
         seconds: the processor time in all.
-        favoured: those of the laws that have `FAVOUR` times their share.
+        worth: the factor of the share of a law, which may change from case to case.
     """
-    shares = {law: LAWS[law].share * (FAVOUR if law in favoured else 1) for law in laws}
     spent, numbers = dict.fromkeys(laws, 0.0), dict.fromkeys(laws, 0)
     ends = clock.process_time() + seconds
     while spent and clock.process_time() < ends:
-        law = min(spent, key=lambda name: spent[name] / shares[name])
+        law = min(spent, key=lambda name: spent[name] / (LAWS[name].share * worth(name)))
         if numbers[law] == LAWS[law].cases:
             del spent[law]
             continue

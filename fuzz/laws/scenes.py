@@ -106,6 +106,13 @@ def corner_scene(random: Random) -> Scene:
     return Scene([moving, Body("wall", wall, closed=wall is not HOOK)], time=(0, 20))
 
 
+def one_point(random: Random) -> Scene:
+    """Return a point alone: no tiling has an edge, and each query of a space has its own answer."""
+    place = random.randint(-2, 2), random.randint(-2, 2)
+    velocity = random.choice([0, 1])
+    return Scene([Body("point", [place], Translation([0, velocity]))], time=(0, 2))
+
+
 def crossing_points(random: Random) -> Scene:
     """Return points that move on a small grid, where many are in line and level at one time."""
     cells = random.sample(range(64), random.randint(3, 12))
@@ -156,6 +163,7 @@ SOURCES: Final[dict[str, Source]] = {
     "tiny/scaled": scaled_pair,
     "tiny/crossed": crossed_pair,
     "tiny/crossing points": crossing_points,
+    "tiny/one point": one_point,
     "tiny/turned": touching_while_turning,
     "scope": _of_scope,
     **{f"{kept.PREFIX}{name}": _kept(name) for name in kept.names()},

@@ -8,7 +8,7 @@ from math import inf, nextafter
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt import FreeSpace, Scene, Simulation, UnreachableError
+from exactpt import FreeSpace, InputError, Scene, Simulation, UnreachableError
 from exactpt.geometry.predicates import orient2d
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.query.answers import PLACES, Place
@@ -197,12 +197,20 @@ def _check_ray(space: FreeSpace, bodies: Places, origin: tuple[object, Point], q
     if found != expected:
         raise Difference("ray", f"from {p} to {q}: {found}, not {expected}")
     if hit is not None:
-        reached = tuple(p[k] + hit.at * direction[k] for k in (0, 1))
-        check_equal("point of a hit", hit.point, reached)
+        x, y = (p[k] + hit.at * direction[k] for k in (0, 1))
+        check_equal("point of a hit", hit.point, (x, y))
+        crossed = definition.edges_crossed(p, (x, y), _diagonals(space))
+        check_equal("number of diagonals that a ray crosses", hit.crossed, len(crossed))
     is_free = expected is None or expected.at > 1
     for a, b in ((given, q), (q, given)):
         if space.is_free(a, b) != is_free:  # type: ignore[arg-type]
             raise Difference("segment", f"from {a} to {b} is {'' if is_free else 'not '}free")
+
+
+def _diagonals(space: FreeSpace) -> list[tuple[Point, Point]]:
+    """Return the ends of the diagonals of a free space."""
+    places = [(node.exact_x, node.exact_y) for node in space.snapshot.nodes]
+    return [(places[edge.u], places[edge.v]) for edge in space.snapshot.diagonals]
 
 
 def _check_places_in_array(
@@ -248,12 +256,16 @@ def _check_neighbours(space: FreeSpace, bodies: Places) -> None:
 
 
 def paths_are_shortest(scene: Scene, random: Random) -> str:
-    """Shortest paths are as long as those in the visibility graph, from both ends."""
+    """Shortest paths are as long as those in the visibility graph, from both ends.
+
+    None leads into a body.
+    """
     space, bodies, _ = a_space(scene, random)
     outcome = "no path"
     for _ in range(PATHS):
         p, q = some_point(random, bodies), some_point(random, bodies)
         if _is_inside(p, bodies) or _is_inside(q, bodies):
+            _check_no_path(space, p, q)
             continue
         expected = shortest_length(bodies, p, q)
         for start, goal in ((p, q), (q, p)):
@@ -267,17 +279,33 @@ def paths_are_shortest(scene: Scene, random: Random) -> str:
     return outcome
 
 
+def _check_no_path(space: FreeSpace, p: Point, q: Point) -> None:
+    """Check that a path between points of which one is inside a body is refused."""
+    for find in (space.shortest_path, space.path):
+        try:
+            path = find(p, q)
+        except InputError:
+            continue
+        raise Difference("path from inside a body", f"from {p} to {q}: {path}")
+
+
 def _path_length(space: FreeSpace, start: Point, goal: Point) -> Length | None:
     """Return the length of the shortest path; None if there is no path.
 
     Raises:
-        Difference: if it has other ends, or another length in doubles.
+        Difference: if it has other ends, or another length in doubles, or crosses another number
+            of diagonals. Around the hull there are more of them, which a snapshot does not have.
     """
     try:
         path = space.shortest_path(start, goal)
     except UnreachableError:
         return None
     check_equal("ends of a path", (path.points[0], path.points[-1]), (start, goal))
+    if not any(space.locate(end).kind == "outside" for end in (start, goal)):
+        diagonals = _diagonals(space)
+        legs = [definition.edges_crossed(a, b, diagonals) for a, b in pairwise(path.points)]
+        crossed = sum(map(len, legs))
+        check_equal("number of diagonals that a path crosses", path.crossed, crossed)
     length = length_of(path.points)
     if length.low > LEAST and length.high < LARGEST:
         check_equal("length of a path", path.length, float(length))

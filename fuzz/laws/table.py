@@ -46,13 +46,14 @@ from fuzz.laws.drawn import (
 )
 from fuzz.laws.enclosed import bounds_contain_the_truth
 from fuzz.laws.exchange import results_survive_a_pickle, scene_is_read_as_written
-from fuzz.laws.fans import fan_events_lead_from_fan_to_fan
+from fuzz.laws.fans import fan_events_lead_from_fan_to_fan, fan_goes_on_after_a_change
 from fuzz.laws.images import first_contact_of_image, pairs_of_image
 from fuzz.laws.irrational import irrational_tiling_is_that_just_after
 from fuzz.laws.law import Law
 from fuzz.laws.limits import (
     ended_run_is_true,
     ended_search_is_true,
+    numbers_of_events_are_kept,
     searches_look_at_the_clock,
 )
 from fuzz.laws.order import distances_are_ordered_as_their_values
@@ -131,6 +132,7 @@ LAWS: Final[dict[str, Law]] = {
         points_are_where_bodies_touch,
         (
             "tiny/crossed",
+            "tiny/touching",
             *FAMILY,
             *MOVING,
             "radii",
@@ -140,7 +142,6 @@ LAWS: Final[dict[str, Law]] = {
             "pair",
             "planks",
         ),
-        share=0.5,
     ),
     "first contact/images": Law(
         first_contact_of_image, ("family", "pair", "tiny/pair", "scope"), share=2
@@ -281,6 +282,7 @@ LAWS: Final[dict[str, Law]] = {
             "points",
             "rings",
             "pair",
+            "tiny/one point",
         ),
         share=1.5,
         most=40,
@@ -343,6 +345,12 @@ LAWS: Final[dict[str, Law]] = {
     ),
     "budget/runs": Law(
         ended_run_is_true, ("family", "tiny/crowded", *MOVING, "points", "rings"), most=60
+    ),
+    "budget/events": Law(
+        numbers_of_events_are_kept,
+        ("family", "tiny/crowded", "points", "tiny/fractions"),
+        share=0.5,
+        most=60,
     ),
     "budget/looks": Law(searches_look_at_the_clock, ("chevrons",), share=0.5, cases=3),
     "first contact/choices": Law(
@@ -412,6 +420,12 @@ LAWS: Final[dict[str, Law]] = {
     "simulation/fan": Law(
         fan_events_lead_from_fan_to_fan,
         ("points", "whole/linear_points", "points+awkward", "tiny/crossing points", "far/arc"),
+        share=0.5,
+        most=70,
+    ),
+    "simulation/fan changed": Law(
+        fan_goes_on_after_a_change,
+        ("points", "whole/linear_points", "points+awkward", "tiny/crossing points"),
         share=0.5,
         most=70,
     ),

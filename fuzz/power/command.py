@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,14 +15,15 @@ import click
 import pytest
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
 from fuzz.laws.runner import runnable
 from fuzz.laws.scenes import made
 from fuzz.laws.table import LAWS
 from fuzz.options import FAILED, HELP, INTERRUPTED
 from fuzz.power.hunt import Found, TestHunt, by_laws, refuse_compiled
 from fuzz.power.mistakes import Mistake, of_mutant, planted
-from fuzz.power.mutants import PARTS, mutants
-from fuzz.power.reached import Reached, record
+from fuzz.power.mutants import PARTS, mutants, named_mutant
+from fuzz.power.reached import Reached
 
 __all__ = ["power"]
 
@@ -69,6 +70,11 @@ class Row:
         return cls(data["mistake"], data["place"], data["masked"], laws, tests)
 
     @property
+    def is_found(self) -> bool:
+        """True if a law or a test finds it."""
+        return any(found is not None and found.by for found in (self.laws, self.tests))
+
+    @property
     def has_escaped(self) -> bool:
         """True if no law finds it though an answer can show it; or one does though none can."""
         return self.laws is not None and bool(self.laws.by) == self.is_masked
@@ -95,6 +101,8 @@ Hunt = Callable[[Mistake], Found]
 @click.argument("words", nargs=-1, metavar="[WORD]...")
 @click.option("--mutants", "count", type=click.IntRange(min=1), help="Mutants, not planted ones.")
 @click.option("--mutant-seed", type=int, default=0, show_default=True)
+@click.option("--again", "escaped", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+              help="The mutants of this file of results that nothing found.")  # fmt: skip
 @click.option("--part", "parts", multiple=True, help="A folder of exactpt to be changed.")
 @click.option("--laws/--no-laws", "is_by_laws", default=True, help="Hunt by the laws.")
 @click.option("--law", "chosen", multiple=True, help="Only laws whose names begin so.")
@@ -102,62 +110,66 @@ Hunt = Callable[[Mistake], Found]
 @click.option("--seconds", default=60.0, show_default=True, help="Processor time a hunt.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Seed of the cases.")
 @click.option("--reached", "databases", multiple=True, type=click.Path(path_type=Path),
-              help="Recorded coverage: only what runs the changed line.")  # fmt: skip
+              help="Recorded coverage: only tests that run the changed line.")  # fmt: skip
 @click.option("--results", type=click.Path(dir_okay=False, path_type=Path),
               help="JSON lines; a run that was stopped goes on.")  # fmt: skip
-@click.option("--record", "recorded", type=click.Path(dir_okay=False, path_type=Path),
-              help="Only record what each law reaches, into a coverage database.")  # fmt: skip
 def power(
     words: tuple[str, ...], count: int | None, mutant_seed: int, parts: tuple[str, ...],
     chosen: tuple[str, ...], tests: tuple[str, ...], seconds: float, seed: int,
-    databases: tuple[Path, ...], results: Path | None, recorded: Path | None, *, is_by_laws: bool,
+    databases: tuple[Path, ...], results: Path | None, escaped: Path | None, *, is_by_laws: bool,
 ) -> None:  # fmt: skip
     """Make mistakes one at a time, and count the seconds until a law is broken, or a test fails.
 
     The mistakes are those of fuzz/planted.py, or mutants of random places of the package; those
-    with a WORD in their names. Each is made in a process of its own. A few are masked: no answer
-    can show them. One of these that is found counts as one that has escaped. Tests that start the
-    command in a new process do not see the mistake.
+    with a WORD in their names. Each is made in a process of its own. The laws whose cases run the
+    changed line most often have most of the time. A few mistakes are masked: no answer can show
+    them. One of these that is found counts as one that has escaped. Tests that start the command
+    in a new process do not see the mistake.
 
     \b
     Examples:
       python -m fuzz power --seconds 20
-      python -m fuzz power --record laws.coverage
-      python -m fuzz power --mutants 40 --part pair --part search \\
-        --reached laws.coverage --results pairs.jsonl
+      python -m fuzz power --mutants 40 --part pair --part search --results search.jsonl
+      python -m fuzz power --again search.jsonl --results again.jsonl
       python -m fuzz power --mutants 40 --part search --tests tests/unit/search \\
-        --reached laws.coverage --reached .coverage --results pairs.jsonl
+        --reached .coverage --results search.jsonl
     """
     named = [law for law in LAWS if not chosen or law.startswith(chosen)]
     laws = [law for law in runnable(named) if LAWS[law].needs != COPY]
     if not laws:
         raise click.UsageError(f"--law: no law begins with {' or '.join(chosen)}; see run --list")
-    if recorded is not None:
-        record(laws, recorded)
-        return
     if parts and count is None:
         raise click.UsageError("--part is for mutants; add --mutants")
+    if escaped is not None and count is not None:
+        raise click.UsageError("--again and --mutants exclude each other; leave one of them out")
+    if escaped is not None and results is not None and escaped.resolve() == results.resolve():
+        raise click.UsageError("--again and --results are one file; write to another one")
     if not is_by_laws and not tests:
         raise click.UsageError("--no-laws leaves nothing to hunt by; add --tests")
     try:
         refuse_compiled()
-        drawn = [of_mutant(mutant) for mutant in mutants(count, mutant_seed, parts or PARTS)] \
-            if count else planted()  # fmt: skip
+        if escaped is not None:
+            drawn = [of_mutant(named_mutant(name)) for name in _escaped(escaped)]
+        elif count is not None:
+            drawn = [of_mutant(mutant) for mutant in mutants(count, mutant_seed, parts or PARTS)]
+        else:
+            drawn = planted()
         reached = Reached(databases)
+        done = _read(results) if results is not None and results.exists() else {}
     except InputError as error:
         raise click.UsageError(str(error)) from None
     mistakes = [one for one in drawn if not words or any(word in one.name for word in words)]
     made("scope", Random(0))  # the small scope is numbered once, before processes are made
 
     def hunt_by_laws(mistake: Mistake) -> Found:
-        return by_laws(mistake, reached.among(laws, mistake.lines), seed, seconds)
+        return by_laws(mistake, laws, seed, seconds)
 
     rows: list[Row] = []
 
     def hunt(hunt_by_tests: Hunt | None) -> None:
         laws_too = hunt_by_laws if is_by_laws else None
         with suppress(KeyboardInterrupt):
-            for row in _rows(mistakes, laws_too, hunt_by_tests, results):
+            for row in _rows(mistakes, laws_too, hunt_by_tests, done, results):
                 rows.append(row)
                 click.echo(row.text)
 
@@ -173,14 +185,42 @@ def power(
     sys.exit(FAILED if any(row.has_escaped for row in rows) else 0)
 
 
+def _read(results: Path) -> dict[str, Row]:
+    """Return the rows of a file of results; the last one of each mistake.
+
+    Raises:
+        InputError: if a line is not one that `Row.to_json` has written.
+    """
+    rows: dict[str, Row] = {}
+    for number, line in enumerate(results.read_text(encoding="utf-8").splitlines(), start=1):
+        try:
+            row = Row.parse(line)
+        except (ValueError, KeyError, TypeError):
+            raise InputError(
+                f"{results}: line {number}: expected a row of results, got {shorten(line)}"
+            ) from None
+        rows[row.mistake] = row
+    return rows
+
+
+def _escaped(results: Path) -> list[str]:
+    """Return the names of the mistakes of a file that nothing found."""
+    return [name for name, row in _read(results).items() if not row.is_found]
+
+
 def _rows(
-    mistakes: Sequence[Mistake], laws: Hunt | None, tests: Hunt | None, results: Path | None
-) -> Iterator[Row]:
-    """Yield the row of each mistake; what is in a file of results is not hunted again."""
-    done: dict[str, Row] = {}
-    if results is not None and results.exists():
-        rows = map(Row.parse, results.read_text(encoding="utf-8").splitlines())
-        done = {row.mistake: row for row in rows}
+    mistakes: Sequence[Mistake], laws: Hunt | None, tests: Hunt | None, done: Mapping[str, Row],
+    results: Path | None,
+) -> Iterator[Row]:  # fmt: skip
+    """Yield the row of each mistake, and add it to a file of results.
+
+    Args:
+        mistakes: the mistakes.
+        laws: hunts by the laws, or None.
+        tests: hunts by tests, or None.
+        done: the rows of that file so far, which are not hunted again.
+        results: the file; None for none.
+    """
     for mistake in mistakes:
         before = done.get(mistake.name)
         row = before or Row(mistake.name, str(mistake.lines), mistake.is_masked)
@@ -240,7 +280,6 @@ def _summary(rows: Sequence[Row]) -> list[str]:
         only = [row.mistake for row in is_open if row.tests and row.tests.by
                 and not (row.laws and row.laws.by)]  # fmt: skip
         lines += [f"found by the tests only: {len(only)}", *(f"  {name}" for name in only)]
-    nothing = [row.mistake for row in is_open if not (row.laws and row.laws.by)
-               and not (row.tests and row.tests.by)]  # fmt: skip
+    nothing = [row.mistake for row in is_open if not row.is_found]
     lines += [f"found by nothing: {len(nothing)}", *(f"  {name}" for name in nothing)]
     return lines

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import inspect
 import textwrap
@@ -14,6 +15,7 @@ from typing import Any, Final, NamedTuple
 from unittest.mock import patch
 
 from exactpt.errors import InputError
+from fuzz.power.probe import NAME, PROBE, insert_probe, probed
 
 __all__ = ["Edit", "Function", "Lines", "Replacement"]
 
@@ -82,15 +84,22 @@ class Edit:
 
     @contextlib.contextmanager
     def made(self) -> Iterator[None]:
-        """A context in which the function has the other text."""
+        """A context in which the function has the other text, and sets the probe there."""
         right, made = self._function(), dict[str, Any]()
-        exec(self._text().replace(self.old, self.new), right.__globals__, made)
+        text = self._text()
+        tree = ast.parse(text.replace(self.old, self.new))
+        (function,) = tree.body
+        assert isinstance(function, ast.FunctionDef)  # noqa: S101 - the text of a function
+        insert_probe(function, 1 + text[: text.index(self.old)].count("\n"))
+        exec(compile(tree, f"<{self.name}, planted>", "exec"), right.__globals__, made)
         code = right.__code__
+        right.__globals__[NAME] = PROBE
         right.__code__ = inspect.unwrap(made[self.name]).__code__
         try:
             yield
         finally:
             right.__code__ = code
+            del right.__globals__[NAME]
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +126,7 @@ class Replacement:
 
     def made(self) -> AbstractContextManager[object]:
         """A context in which the function is replaced."""
-        wrong = self.make(getattr(self.owner, self.name))
+        wrong = probed(self.make(getattr(self.owner, self.name)))
         replaced: AbstractContextManager[object] = patch.object(self.owner, self.name, wrong)
         return replaced
 

@@ -13,17 +13,23 @@ from _pytest.runner import runtestprotocol
 from exactpt.certificates import first_root as filters
 from exactpt.errors import InputError
 from fuzz.laws.known import reason_of
-from fuzz.laws.runner import PATIENCE, run_for
+from fuzz.laws.runner import PATIENCE, cost_of, run_for
 from fuzz.power.forked import Say, in_a_process
 from fuzz.power.mistakes import Mistake
+from fuzz.power.probe import PROBE
 
-__all__ = ["DIED", "Found", "TestHunt", "by_laws", "refuse_compiled"]
+__all__ = ["DIED", "Found", "Reach", "TestHunt", "by_laws", "refuse_compiled"]
 
 DIED: Final = "the process"
 """What finds a mistake by which a process ends without a result."""
 
 SLOWEST: Final = 40.0
 """Seconds of processor time that a test which is begun may take beyond the limit of all."""
+
+
+UNKNOWN: Final = 0.1
+"""The part of a case that counts as one which runs the changed line, before there are any: a law
+without such a case gets less time, but is not left out."""
 
 
 class Found(NamedTuple):
@@ -35,7 +41,8 @@ class Found(NamedTuple):
         why: the fault.
         tried: the number of cases, or tests.
         seconds: processor time.
-        reaching: the number of laws, or files of tests, that reach the changed lines.
+        reaching: the number of laws with a case that ran the changed line, or of files of tests
+            that may reach it.
         is_whole: True if everything there is was tried, False if the time was over.
     """
 
@@ -58,12 +65,49 @@ def refuse_compiled() -> None:
         raise InputError("mistakes are planted in the plain package only; run make plain")
 
 
+class Reach:
+    """How often the cases of each law have run the changed line, and the turns that follow.
+
+    A law about another question never runs it, and one in which the line is rare hides it among
+    other cases. So a law has the more time, the larger the part of its cases that run the line.
+    """
+
+    def __init__(self, laws: Sequence[str]) -> None:
+        """Begin with laws that have no case so far.
+
+        Args:
+            laws: the laws.
+        """
+        self.laws = sorted(laws, key=cost_of)  # quick ones first: each has a case soon
+        self._cases = dict.fromkeys(laws, 0)
+        self._reaching = dict.fromkeys(laws, 0)
+
+    @property
+    def tried(self) -> int:
+        """The number of cases."""
+        return sum(self._cases.values())
+
+    @property
+    def number(self) -> int:
+        """The number of laws with a case that has run the line."""
+        return sum(reaching > 0 for reaching in self._reaching.values())
+
+    def add(self, law: str, *, is_reached: bool) -> None:
+        """Count a case."""
+        self._cases[law] += 1
+        self._reaching[law] += is_reached
+
+    def worth(self, law: str) -> float:
+        """Return the part of the cases of a law that run the line, as far as it is known."""
+        return (self._reaching[law] + UNKNOWN) / (self._cases[law] + 1)
+
+
 def by_laws(mistake: Mistake, laws: Sequence[str], seed: int, seconds: float) -> Found:
     """Check cases of laws in a process in which a mistake is made, until a law is broken.
 
     Args:
         mistake: the mistake.
-        laws: the laws, of which one after the other has its turn, by the time for its share.
+        laws: the laws, which have their turns by the time for their share and `Reach.worth`.
         seed: the seed of the cases.
         seconds: the limit of processor time.
     """
@@ -73,24 +117,24 @@ def by_laws(mistake: Mistake, laws: Sequence[str], seed: int, seconds: float) ->
     def work(say: Say) -> None:
         began = clock.process_time()
         mistake.make()
-        tried = 0
-        for looked in run_for(laws, seed, seconds):
-            tried += 1
+        reach = Reach(laws)
+        for tried, looked in enumerate(run_for(reach.laws, seed, seconds, reach.worth), start=1):
+            reach.add(looked.case.law, is_reached=PROBE.take())
             fault = looked.fault
             if fault is not None and reason_of(str(looked.case)) is None:
                 why = fault.why[:200]
                 spent = clock.process_time() - began
-                found = Found(fault.case.law, fault.case.place, why, tried, spent, len(laws))
-                say(json.dumps(found))
+                law, place = fault.case.law, fault.case.place
+                say(json.dumps(Found(law, place, why, tried, spent, reach.number)))
                 return
         spent = clock.process_time() - began
-        say(json.dumps(Found(tried=tried, seconds=spent, reaching=len(laws))))
+        say(json.dumps(Found(tried=reach.tried, seconds=spent, reaching=reach.number)))
 
     ended = in_a_process(work, seconds + 2 * PATIENCE)
     if ended.status == 0 and ended.lines:
         return Found(*json.loads(ended.lines[-1]))
     why = " ".join(ended.lines[-1:]) or f"it ended without a result, status {ended.status}"
-    return Found(DIED, "", why, 0, ended.seconds, len(laws))
+    return Found(DIED, "", why, 0, ended.seconds)
 
 
 class TestHunt:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import functools
 import inspect
+import re
 from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -14,8 +15,9 @@ from typing import Any, Final, NamedTuple, TypeAlias
 
 from exactpt.errors import InputError
 from fuzz.power.edits import Lines
+from fuzz.power.probe import NAME, PROBE, insert_probe
 
-__all__ = ["PARTS", "Mutant", "mutants"]
+__all__ = ["PARTS", "Mutant", "mutants", "named_mutant"]
 
 ROOT: Final = Path(__file__).parents[2]
 PARTS: Final = ("kernel", "geometry", "planar", "motion", "certificates", "filters", "pair",
@@ -31,6 +33,9 @@ COMPUTED: Final = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Add, ast.Di
                    ast.RShift: ast.LShift, ast.BitAnd: ast.BitOr,
                    ast.BitOr: ast.BitAnd}  # fmt: skip
 """Operators, and what each of them becomes."""
+
+NAMED: Final = re.compile(r"(?P<function>[\w.]+)\[(?P<number>\d+)\]: .*", re.DOTALL)
+"""The name of a mutant."""
 
 
 class Mutant(NamedTuple):
@@ -101,6 +106,44 @@ def mutants(number: int, seed: int, parts: Sequence[str] = PARTS) -> list[Mutant
             f"mutants: {' '.join(parts)} have {len(found)}, got {number}; ask for less"
         )
     return found
+
+
+def named_mutant(name: str) -> Mutant:
+    """Return the mutant of a name.
+
+    Raises:
+        InputError: if it is not the name of a mutant of the present text.
+    """
+    found = NAMED.fullmatch(name)
+    path = _path_of(found["function"]) if found else None
+    if found is None or path is None:
+        raise InputError(f"mutants: no place of exactpt, got {name!r}")
+    module = _module_of(path)
+    names = tuple(found["function"].removeprefix(f"{module}.").split("."))
+    functions = dict(_functions(ast.parse(path.read_text(encoding="utf-8"))))
+    number = int(found["number"])
+    is_there = names in functions and number < len(_sites(functions[names]))
+    mutant = _mutant(_Place(path, names, number)) if is_there else None
+    if mutant is None or mutant.name != name:
+        what = "no such place" if mutant is None else f"the place is now {mutant.name!r}"
+        raise InputError(f"mutants: {what}, got {name!r}; the text of the package has changed")
+    return mutant
+
+
+def _path_of(function: str) -> Path | None:
+    """Return the file of a function with the names of its modules; None if there is none."""
+    words = function.split(".")
+    for length in range(len(words) - 1, 0, -1):
+        module = ROOT.joinpath(*words[:length])
+        for path in (module.with_suffix(".py"), module / "__init__.py"):
+            if path.is_file():
+                return path
+    return None
+
+
+def _module_of(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
 
 
 def _places(part: str) -> Iterator[_Place]:
@@ -195,8 +238,7 @@ def _mutant(place: _Place) -> Mutant | None:
     node = next(function for found, function in _functions(tree) if found == names)
     site = _sites(node)[number]
     text = site.change()
-    relative = path.relative_to(ROOT)
-    module = ".".join(relative.with_suffix("").parts).removesuffix(".__init__")
+    module = _module_of(path)
     whole = compile(ast.fix_missing_locations(tree), str(path), "exec")
     code = _code(whole, names, node)
     try:
@@ -207,12 +249,16 @@ def _mutant(place: _Place) -> Mutant | None:
         return None
     if function.__code__.co_freevars != code.co_freevars:
         return None
-    lines = Lines(str(relative), site.first, site.last)
+    insert_probe(node, site.first)
+    probing = _code(compile(tree, str(path), "exec"), names, node)
+    assert probing is not None  # noqa: S101 - the same functions as before
+    lines = Lines(str(path.relative_to(ROOT)), site.first, site.last)
     name = f"{module}.{'.'.join(names)}[{number}]: {text}"
-    return Mutant(name, lines, functools.partial(_exchange, function, code))
+    return Mutant(name, lines, functools.partial(_exchange, function, probing))
 
 
 def _exchange(function: FunctionType, code: CodeType) -> None:
+    function.__globals__[NAME] = PROBE
     function.__code__ = code
 
 

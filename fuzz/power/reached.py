@@ -1,4 +1,4 @@
-"""What reaches a line: tests and laws, according to recorded coverage with contexts."""
+"""Which files of tests reach a line, according to recorded coverage with contexts."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from pathlib import Path
 
 import coverage
 
-import exactpt
 from exactpt.errors import InputError
-from fuzz.laws.runner import cases_of, count_of, look
 from fuzz.power.edits import Lines
 
-__all__ = ["Reached", "record"]
+__all__ = ["Reached"]
 
 
 class Reached:
-    """Coverage databases, with a context for each file of tests, each test, or each law.
+    """Coverage databases, with a context for each test, or each file of tests.
 
     They are of the present text of the package: of another one, lines have other numbers.
     """
@@ -31,13 +29,11 @@ class Reached:
         self._read = [_read(path) for path in paths]
         self.known = {_owner(name) for data in self._read for name in data.measured_contexts()}
         if paths and self.known <= {""}:
-            raise InputError(
-                f"{paths[0]}: no contexts; record with --cov-context=test, or --record"
-            )
+            raise InputError(f"{paths[0]}: no contexts; record with --cov-context=test")
         self._owners = cache(self._owners_by_line)
 
     def _owners_by_line(self, file: str) -> dict[int, set[str]]:
-        """Return the files of tests and the laws that run each line of a file."""
+        """Return the files of tests that run each line of a file."""
         found: dict[int, set[str]] = {}
         for data in self._read:
             for path in data.measured_files():
@@ -47,8 +43,8 @@ class Reached:
                     found.setdefault(line, set()).update(map(_owner, names))
         return found
 
-    def among(self, names: Iterable[str], lines: Lines) -> list[str]:
-        """Return those of some files of tests, or laws, that reach a line, or may reach it.
+    def among(self, files: Iterable[str], lines: Lines) -> list[str]:
+        """Return those of some files of tests that reach a line, or may reach it.
 
         One that is not in the databases may reach everything.
         """
@@ -56,12 +52,14 @@ class Reached:
         reaching = set[str]().union(
             *(owners.get(line, ()) for line in range(lines.first, lines.last + 1))
         )
-        return [name for name in names if name in reaching or name not in self.known]
+        return [file for file in files if file in reaching or file not in self.known]
 
 
 def _read(path: Path) -> coverage.CoverageData:
     if not path.exists():
-        raise InputError(f"{path}: no such coverage database; record it with --record")
+        raise InputError(
+            f"{path}: no such coverage database; record it by pytest --cov-context=test"
+        )
     data = coverage.CoverageData(str(path))
     try:
         data.read()
@@ -71,27 +69,5 @@ def _read(path: Path) -> coverage.CoverageData:
 
 
 def _owner(context: str) -> str:
-    """Return the file of tests, or the law, of a context: pytest-cov has the test and its phase."""
+    """Return the file of tests of a context: pytest-cov has the test and its phase."""
     return context.split("::", maxsplit=1)[0]
-
-
-def record(laws: Sequence[str], path: Path, tier: str = "full") -> None:
-    """Run the cases of a tier of each law under coverage, with a context for each law.
-
-    Args:
-        laws: the laws.
-        path: the database, which is replaced.
-        tier: the tier, of `fuzz.laws.runner.TIERS`.
-    """
-    package = str(Path(exactpt.__file__).parent / "*")
-    measured = coverage.Coverage(
-        data_file=str(path), branch=True, include=[package], config_file=False
-    )
-    measured.erase()
-    measured.start()
-    for law in laws:
-        measured.switch_context(law)
-        for case in cases_of(law, 0, count_of(law, tier)):
-            look(case)
-    measured.stop()
-    measured.save()

@@ -166,7 +166,7 @@ def test_favoured_laws_have_more_cases(monkeypatch):
     for name in ("test/one", "test/two"):
         monkeypatch.setitem(table.LAWS, name, Law(has_a_triangle, ("family/convex",)))
 
-    looked = list(runner.run_for(["test/one", "test/two"], 0, 0.5, ["test/two"]))
+    looked = list(runner.run_for(["test/one", "test/two"], 0, 0.5, runner.favour(["test/two"])))
 
     seconds = {"test/one": 0.0, "test/two": 0.0}
     for one in looked:

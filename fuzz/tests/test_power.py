@@ -19,9 +19,10 @@ from fuzz.planted import PLANTED
 from fuzz.power import command
 from fuzz.power.edits import Edit, Lines
 from fuzz.power.forked import in_a_process
-from fuzz.power.hunt import DIED, Found, by_laws
+from fuzz.power.hunt import DIED, Found, Reach, by_laws
 from fuzz.power.mistakes import Mistake, planted
-from fuzz.power.mutants import _sites, mutants
+from fuzz.power.mutants import _sites, mutants, named_mutant
+from fuzz.power.probe import NAME, PROBE, insert_probe, probed
 from fuzz.power.reached import Reached
 
 pytestmark = pytest.mark.plain
@@ -93,6 +94,27 @@ def test_each_change_is_of_one_place_and_of_no_message_or_annotation():
     assert len({tree for _, tree in found.values()} | {plain}) == number + 1
 
 
+def test_mutant_of_a_name_is_the_one_that_was_drawn():
+    for one in mutants(6, 1, ["planar", "query"]):
+        again = named_mutant(one.name)
+        assert (again.name, again.lines) == (one.name, one.lines)
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("exactpt.planar.pears.peel[0]: 0 -> 1", "no such place"),
+        ("exactpt.planar.halfedge.twin[999]: 0 -> 1", "no such place"),
+        ("exactpt.planar.halfedge.twin[0]: 0 -> 1", "the place is now 'exactpt.planar.halfedge."),
+        ("pears[0]: 0 -> 1", "no place of exactpt"),
+        ("events dropped", "no place of exactpt"),
+    ],
+)
+def test_mutant_whose_place_has_changed_is_refused(name, why):
+    with pytest.raises(InputError, match=why):
+        named_mutant(name)
+
+
 def test_mutants_of_no_folder_are_refused():
     with pytest.raises(InputError, match="mutants: no folder of exactpt, got 'pears'"):
         mutants(1, 0, ["pears"])
@@ -128,6 +150,51 @@ def test_bug_mistake_of_an_edited_function_stays_made():
         assert Repairs._repair_corner.__code__ is not right
     finally:
         Repairs._repair_corner.__code__ = right
+
+
+# Probes
+
+
+PROBED = """
+def parity(n):
+    if n < 0:
+        n = -n
+    for _ in range(n):
+        if n % 2:
+            return 1
+        else:
+            n = n
+    return 0
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "reaching"),
+    [(3, [-1, 0, 1, 2]), (4, [-1]), (6, [-1, 1, 2]), (7, [-1, 1]), (9, [2]), (10, [0, 2])],
+)
+def test_probe_says_whether_the_statement_of_a_line_has_been_run(line, reaching):
+    """`n = -n` is run for -1 only, the loop for all but 0, `else` for 2 only."""
+    tree = ast.parse(PROBED)
+    insert_probe(tree.body[0], line)
+    names = {NAME: PROBE}
+    exec(compile(tree, "<test>", "exec"), names)
+    found, answers = [], {}
+    for n in (-1, 0, 1, 2):
+        PROBE.take()
+        answers[n] = names["parity"](n)
+        if PROBE.take():
+            found.append(n)
+
+    assert found == reaching
+    assert answers == {-1: 1, 0: 0, 1: 1, 2: 0}
+
+
+def test_probed_function_does_the_same():
+    PROBE.take()
+
+    assert probed(max)(3, 7, key=lambda n: -n) == 3
+    assert PROBE.take()
+    assert not PROBE.take()
 
 
 # Processes
@@ -194,17 +261,46 @@ def test_process_that_dies_counts_as_found():
     assert by_laws(dying, ["tiling/static"], 0, 1.0).by == DIED
 
 
+def test_law_whose_cases_run_the_changed_line_has_most_of_the_time(monkeypatch):
+    """Of three laws of equal cost, one never runs it, and one in one case of ten.
+
+    In 1000 turns that go to the least number for the worth, the others have a few.
+    """
+    monkeypatch.setattr("fuzz.power.hunt.cost_of", {"never": 3.0, "rarely": 2.0, "always": 1.0}.get)
+    reach = Reach(["never", "rarely", "always"])
+    counts = dict.fromkeys(reach.laws, 0)
+
+    for _ in range(1000):
+        law = min(counts, key=lambda name: counts[name] / reach.worth(name))
+        counts[law] += 1
+        reach.add(law, is_reached=law == "always" or (law == "rarely" and counts[law] % 10 == 1))
+
+    assert reach.laws == ["always", "rarely", "never"]  # quick ones first
+    assert (reach.tried, reach.number) == (1000, 2)
+    assert 0 < counts["never"] < 30 < counts["rarely"] < 200
+    assert counts["always"] > 800
+
+
+def test_laws_that_reach_a_mistake_are_counted():
+    """Only the laws of budgets ask what a search has reached: of two, one reaches the mistake."""
+    mistake = the_planted("no contact for a double too long")
+
+    found = by_laws(mistake, ["exchange/results", "budget/searches"], 0, 1.5)
+
+    assert found.reaching == 1
+
+
 # What reaches a line
 
 
 @pytest.fixture
 def database(tmp_path):
-    """Lines 1 and 2 of a file are run by one test of a file, line 2 by a law."""
+    """Lines 1 and 2 of a file are run by one test of a file, line 2 by another file."""
     path = tmp_path / "some.coverage"
     data = coverage.CoverageData(str(path))
     data.set_context("tests/unit/test_one.py::test_a|run")
     data.add_lines({"/elsewhere/exactpt/brief.py": [1, 2]})
-    data.set_context("tiling/static")
+    data.set_context("tests/unit/test_two.py")
     data.add_lines({"/elsewhere/exactpt/brief.py": [2], "/elsewhere/exactpt/files.py": [9]})
     data.write()
     return path
@@ -213,17 +309,17 @@ def database(tmp_path):
 @pytest.mark.parametrize(
     ("first", "last", "reaching"),
     [
-        (1, 1, ["tests/unit/test_one.py", "new law"]),
-        (2, 2, ["tests/unit/test_one.py", "tiling/static", "new law"]),
-        (3, 9, ["new law"]),
+        (1, 1, ["tests/unit/test_one.py", "test_new.py"]),
+        (2, 2, ["tests/unit/test_one.py", "tests/unit/test_two.py", "test_new.py"]),
+        (3, 9, ["test_new.py"]),
     ],
 )
 def test_line_is_reached_by_those_who_ran_it_and_those_not_recorded(
     database, first, last, reaching
 ):
-    names = ["tests/unit/test_one.py", "tiling/static", "new law"]
+    files = ["tests/unit/test_one.py", "tests/unit/test_two.py", "test_new.py"]
 
-    found = Reached([database]).among(names, Lines("exactpt/brief.py", first, last))
+    found = Reached([database]).among(files, Lines("exactpt/brief.py", first, last))
 
     assert found == reaching
 
@@ -258,6 +354,24 @@ def test_row_of_results_is_not_hunted_again(tmp_path):
     assert "laws     3.0 s      7 of   5  a law a case: a reason" in result.output
     assert "found by the laws: 1" in result.output
     assert results.read_text(encoding="utf-8") == row.to_json() + "\n"
+
+
+def test_only_mutants_that_nothing_found_are_hunted_again(tmp_path):
+    one, other = mutants(2, 0, ["planar"])
+    results = tmp_path / "results.jsonl"
+    found = Found("a law", "a case", "a reason", 7, 3.0, 5)
+    rows = [
+        command.Row(one.name, str(one.lines), is_masked=False, laws=found),
+        command.Row(other.name, str(other.lines), is_masked=False, laws=Found()),
+    ]
+    results.write_text("".join(f"{row.to_json()}\n" for row in rows), encoding="utf-8")
+    words = ["--again", str(results), "--law", "distance/order", "--seconds", "0.1"]
+
+    result = CliRunner().invoke(command.power, words)
+
+    assert "1 mistakes, 0 of them masked" in result.output
+    assert other.name in result.output
+    assert one.name not in result.output
 
 
 TESTS = """
@@ -300,6 +414,10 @@ def test_mistake_is_found_by_the_test_that_fails_only_with_it(tmp_path):
     ("words", "why"),
     [
         (["--part", "pairs"], "--part is for mutants; add --mutants"),
+        (["--again", __file__, "--mutants", "1"], "--again and --mutants exclude each other"),
+        (["--again", __file__, "--results", __file__], "--again and --results are one file"),
+        (["--again", __file__], "test_power.py: line 1: expected a row of results, got"),
+        (["--results", __file__], "test_power.py: line 1: expected a row of results, got"),
         (["--no-laws"], "--no-laws leaves nothing to hunt by; add --tests"),
         (["--law", "pears"], "--law: no law begins with pears"),
         (["--mutants", "1", "--part", "pears"], "no folder of exactpt, got 'pears'"),

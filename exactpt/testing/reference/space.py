@@ -17,7 +17,8 @@ from exactpt.testing.reference.shapes import is_on_segment, segments_cross
 
 __all__ = [
     "Hit", "OpenChain", "Owner", "Places", "Point", "Rings", "bends_around", "components",
-    "convex_hull", "crosses", "first_hit", "is_in_hole", "owner", "points_of", "winding",
+    "convex_hull", "crosses", "edges_crossed", "first_hit", "is_in_hole", "owner", "points_of",
+    "winding",
 ]  # fmt: skip
 
 Point: TypeAlias = "tuple[Any, Any]"
@@ -216,6 +217,21 @@ def crosses(p: Point, q: Point, scene: Places) -> bool:
         if found is not None and found[1:] == (None, None):
             return True
     return False
+
+
+def edges_crossed(p: Point, q: Point, edges: Sequence[tuple[Point, Point]]) -> list[int]:
+    """Return which edges the segment from p to q crosses, in an inner point of both, by index.
+
+    >>> gates = [((1, -1), (1, 1)), ((2, 0), (2, 1)), ((5, -1), (5, 1))]
+    >>> edges_crossed((0, 0), (3, 0), gates)  # it passes an end of the second one
+    [0]
+
+    Args:
+        p: an end of the segment.
+        q: the other end.
+        edges: the two ends of each edge.
+    """
+    return [k for k, (a, b) in enumerate(edges) if segments_cross(p, q, a, b)]
 
 
 def bends_around(
