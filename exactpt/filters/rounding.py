@@ -65,6 +65,21 @@ of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underfl
 FAR: Final = 2.0**20
 """Ratio of distance from the origin to extent above which doubles are relative to a point."""
 
+
+def as_lower(x: float) -> float:
+    """Return a lower bound: -infinity for a NaN, which bounds nothing."""
+    if x >= -INFINITY:
+        return x
+    return -INFINITY
+
+
+def as_upper(x: float) -> float:
+    """Return an upper bound: infinity for a NaN, which bounds nothing."""
+    if x <= INFINITY:
+        return x
+    return INFINITY
+
+
 _less_than_half_ulp: float = 2.0**-60  # not Final: a compiler must not compute with these
 _least_normal: float = 2.0**-1022
 
