@@ -1,0 +1,144 @@
+"""Functions of time in a window: quadratics with a bound on everything else.
+
+A window of time is [middle - half, middle + half]. In it time runs as t = middle + half s, with s
+in [-1, 1]. The model (c0, c1, c2, r) stands for every function f with
+
+    |f(t) - (c0 + c1 s + c2 s^2)| <= r    for all s in [-1, 1].
+
+       f  |            . - ' '     }  r
+          |      _ - '_ .  - '
+          |  . -'. - '             }  r     Every motion becomes models. What is special about
+          |.' -'                            its formula ends here: filters see quadratics alone.
+          +----------+----------> s
+         -1          0          1
+
+For functions of degree 1 or 2 the remainder r is rounding alone. For others it is of the third
+order in the width: a window of a thousandth has a remainder of 10^-9.
+
+Rounding. A term of a sum of products that goes through k operations is multiplied by a number
+within 1 +- k U / (1 - k U) (Higham, lemma 3.1). So the error of the sum is at most about k U times
+the sum of the sizes of all terms. Below, k is at most 8, with the error of the given coefficients.
+The bound is `ROUNDING` = 16 U times that sum, as computed; the factor `SLACK` covers the rounding
+of the bound.
+
+Underflow. A product that underflows is off by at most 2^-1075. Coefficients are 0 or of size
+2^-300 to 2^100 (or NaN), times are below `FARTHEST` = 2^100, and the divisor of `inverse` is above
+2^-300. So later factors multiply that error by at most 2^400, and `TINY` = 2^-500 covers it. A
+window that reaches farther has no model.
+
+NaN and infinity. If a number overflows or is a NaN, the remainder is infinite or a NaN. No test of
+a filter accepts such a bound.
+
+Source: M. Berz, G. Hoffstaetter, "Computation and application of Taylor polynomials with interval
+remainder bounds", Reliable Computing 4 (1998).
+"""
+
+from typing import Final
+
+from librt.vecs import vec
+from mypy_extensions import i64
+
+from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U
+
+Model = tuple[float, float, float, float]
+"""c0, c1, c2 and the remainder r. A tuple, since compiled code keeps its numbers in registers."""
+
+ROUNDING: Final = 16.0 * U
+"""Error of a sum of products, relative to the sum of the sizes of its terms."""
+FARTHEST: Final = 2.0**100
+"""Time up to which there are models."""
+ONE: Final[float] = 1.0
+
+
+def of_polynomial(c: vec[float], at: i64, middle: float, half: float) -> Model:
+    """Return the model of c[at] + c[at + 1] t + c[at + 2] t^2 + c[at + 3] t^3.
+
+    The coefficients may have relative errors up to U.
+
+    By Horner's rule, the Taylor coefficients at the middle. The cubic term is left to the
+    remainder. A coefficient goes through at most 6 operations. The sizes of all terms that come
+    from c[i] t^i add up to |c[i]| (|middle| + half)^i.
+    """
+    c0, c1, c2, c3 = c[at], c[at + 1], c[at + 2], c[at + 3]
+    reach = abs(middle) + half
+    if not reach < FARTHEST:
+        return c0, 0.0, 0.0, INFINITY
+    value = c0 + middle * (c1 + middle * (c2 + middle * c3))
+    slope = half * (c1 + middle * (2.0 * c2 + 3.0 * middle * c3))
+    bend = half * half * (c2 + 3.0 * middle * c3)
+    cubic = half * half * half * abs(c3)
+    size = abs(c0) + reach * (abs(c1) + reach * (abs(c2) + reach * abs(c3)))
+    return value, slope, bend, (cubic + ROUNDING * size) * SLACK + TINY
+
+
+def size_of(f: Model) -> float:
+    """Return a bound of the quadratic, without the remainder."""
+    return abs(f[0]) + abs(f[1]) + abs(f[2])
+
+
+def plus(f: Model, g: Model) -> Model:
+    """Return the model of f + g."""
+    f0, f1, f2, f_rest = f
+    g0, g1, g2, g_rest = g
+    size = size_of(f) + size_of(g)
+    rest = f_rest + g_rest + ROUNDING * size
+    return f0 + g0, f1 + g1, f2 + g2, rest * SLACK + TINY
+
+
+def minus(f: Model, g: Model) -> Model:
+    """Return the model of f - g."""
+    g0, g1, g2, g_rest = g
+    return plus(f, (-g0, -g1, -g2, g_rest))
+
+
+def times(f: Model, g: Model) -> Model:
+    """Return the model of f g.
+
+    The terms in s^3 and s^4 go to the remainder, as does what the remainders of f and g add.
+    """
+    f0, f1, f2, f_rest = f
+    g0, g1, g2, g_rest = g
+    f_size, g_size = size_of(f), size_of(g)
+    high = abs(f1 * g2) + abs(f2 * g1) + abs(f2 * g2)
+    inherited = f_rest * (g_size + g_rest) + g_rest * f_size
+    rest = high + inherited + ROUNDING * f_size * g_size
+    return f0 * g0, f0 * g1 + f1 * g0, f0 * g2 + f1 * g1 + f2 * g0, rest * SLACK + TINY
+
+
+def inverse(w: Model) -> Model:
+    """Return the model of 1 / w. The remainder is infinite unless w is near enough to a constant.
+
+    With w = w0 (1 + e) and |e| <= q < 1 / 2,
+
+        1 / w = (1 - e + e^2 - e^3 / (1 + e)) / w0,    where |e^3 / (1 + e)| <= q^3 / (1 - q).
+
+    e is p = e1 s + e2 s^2, but for an error of at most er. So e^2 is e1^2 s^2, but for
+    |2 e1 e2| + e2^2 (the terms in s^3 and s^4 of p^2) and 2 |p| er + er^2 <= er (2 q + er).
+    A coefficient goes through at most 5 operations.
+    """
+    w0, w1, w2, w_rest = w
+    if not abs(w0) > SMALL:
+        return 0.0, 0.0, 0.0, INFINITY
+    e1, e2, er = w1 / w0, w2 / w0, abs(w_rest / w0)
+    q = (abs(e1) + abs(e2) + er) * SLACK
+    if not q < 0.5:
+        return 0.0, 0.0, 0.0, INFINITY
+    cubic = q * q * q / (1.0 - q)
+    square = abs(2.0 * e1 * e2) + e2 * e2 + er * (2.0 * q + er)
+    rest = (er + square + cubic + ROUNDING * (1.0 + q + q * q)) / abs(w0)
+    return 1.0 / w0, -e1 / w0, (e1 * e1 - e2) / w0, rest * SLACK + TINY
+
+
+def turn(h: Model) -> tuple[Model, Model]:
+    """Return the models of the cosine and of the sine of an angle, given the tangent h of its half.
+
+    cos = 2 / (1 + h^2) - 1 and sin = h 2 / (1 + h^2). In a window in which h changes too much for
+    `inverse`, the models are 0 with the remainder 1, which is true of each angle.
+    """
+    one: Model = (ONE, 0.0, 0.0, 0.0)
+    i0, i1, i2, i_rest = inverse(plus(one, times(h, h)))
+    if i_rest == INFINITY and size_of(h) + h[3] < INFINITY:
+        unknown: Model = (0.0, 0.0, 0.0, 1.0)
+        return unknown, unknown
+    twice: Model = (2.0 * i0, 2.0 * i1, 2.0 * i2, 2.0 * i_rest)
+    return minus(twice, one), times(h, twice)

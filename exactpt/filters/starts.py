@@ -1,0 +1,293 @@
+"""Whether two pieces are certainly disjoint at one time: at the start of a search.
+
+The idea: most pairs whose boxes meet at the start are disjoint, and doubles can tell. Two pieces
+have no common point if
+
+1. their boxes are apart; or
+2. a line along an edge of one of them separates them: small convex pieces end here; or
+3. no edge of one meets an edge of the other, and nothing of one is inside the other::
+
+       +---------+         The parts of a piece, which are chains or rings, do not cross the edges
+       |  +---+  |         of the other piece. So each of them is inside of it or outside as a
+       |  | *------->      whole, and one point * of it tells which: it is outside if a ray from it
+       |  +---+  |         crosses an even number of edges. Rings of holes count like others. A
+       +---------+         piece that has no ring contains nothing.
+
+With radii only the first test is made.
+
+*Errors.* With half = 0 a window (`exactpt.filters.windows`) has the vertices at one time, each
+within rho of its row, in x and in y. Below, rho is the sum of those of both pieces. Then an edge
+u = b - a is off by du <= 2 rho, and z = v - a, for a vertex v of the other piece, by dz <= rho. So
+the orientation u x z is off by at most
+
+    |u| dz + |z| du + 2 du dz    with |.| the sum of the sizes of x and y,
+
+and by 8 U of the sizes of its two products, which are rounded after two differences. A product
+with a normal n is off by |n| rho, whatever the normal, and by 4 U of the sizes of its two terms.
+
+*What is inside* is decided with the rows, as if they were exact. For let all vertices move straight
+from their rows to where they truly are. They stay within rho, so that, by 3, no edges meet on the
+way: no vertex crosses a ring. So what is inside or outside by the rows is so in truth. The heights
+of a vertex and of the ends of an edge are doubles, and compared without an error.
+
+Each test is positive: it fails for a NaN. So a piece that is out of range is disjoint from none.
+"""
+
+from typing import Final
+
+from librt.vecs import append, vec
+from mypy_extensions import i64
+
+from exactpt.filters.boxes import strips, zeros
+from exactpt.filters.features import Filter
+from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
+from exactpt.filters.rows import Table, append_box
+from exactpt.filters.windows import ROW, Y0, Window, edge_box
+
+SMALL: Final[i64] = 24
+"""Separating lines are tried up to so many pairs of a vertex and an edge."""
+FEW: Final[i64] = 256
+"""So many pairs of edges are compared one by one, more by strips."""
+
+
+def are_disjoint(kept: Filter, i: i64, j: i64, t: float) -> bool:
+    """Return True if two pieces certainly have no common point at a time."""
+    table, p, q = kept.table, kept.p, kept.q
+    p.fill(table, i, t, 0.0)
+    q.fill(table, j, t, 0.0)
+    distance = table.radius[i] + table.radius[j]
+    if kept.apart(p, q, distance):
+        return True
+    if distance != 0.0:
+        return False
+    pair, swapped = Pair(table, i, j, p, q), Pair(table, j, i, q, p)
+    is_small = table.size[i] * table.size[j] <= SMALL
+    if is_small and (pair.has_line_between() or swapped.has_line_between()):
+        return True
+    if pair.edges_may_meet():
+        return False
+    return pair.is_second_outside() and swapped.is_second_outside()
+
+
+class Pair:
+    """Two pieces at one time.
+
+    Attributes:
+        table: the table.
+        i, j: the pieces.
+        p, q: their windows.
+        rho: a bound of the errors of both together.
+    """
+
+    def __init__(self, table: Table, i: i64, j: i64, p: Window, q: Window) -> None:
+        self.table = table
+        self.i = i
+        self.j = j
+        self.p = p
+        self.q = q
+        self.rho = p.rho + q.rho
+
+    def has_line_between(self) -> bool:
+        """Return True if a line along an edge of the first piece certainly separates them."""
+        table, p, q = self.table, self.p.rows, self.q.rows
+        first = table.edge[self.i]
+        size, other_size = table.size[self.i], table.size[self.j]
+        e = first
+        while e < first + table.edges[self.i]:
+            a, b = ROW * table.begins[e], ROW * table.ends[e]
+            nx, ny = p[a + Y0] - p[b + Y0], p[b] - p[a]
+            low, high, terms = span_along(p, size, nx, ny)
+            other_low, other_high, other_terms = span_along(q, other_size, nx, ny)
+            off = (abs(nx) + abs(ny)) * self.rho + 4.0 * U * (terms + other_terms)
+            margin = 2.0 * off * SLACK + TINY
+            if other_low > high + margin or low > other_high + margin:
+                return True
+            e += 1
+        return False
+
+    def edges_may_meet(self) -> bool:
+        """Return True unless all edges of one are certainly apart from all of the other.
+
+        Edges that meet have boxes that meet, and each of them the box of the other piece.
+        """
+        edges = near_edges(self.table, self.i, self.p, self.q)
+        others = near_edges(self.table, self.j, self.q, self.p)
+        n: i64 = len(edges)
+        m: i64 = len(others)
+        if n * m > FEW:
+            return self._edges_may_meet_by_strips(edges, others)
+        k: i64 = 0
+        while k < n:
+            other: i64 = 0
+            while other < m:
+                if self.may_meet(edges[k], others[other]):
+                    return True
+                other += 1
+            k += 1
+        return False
+
+    def _edges_may_meet_by_strips(self, edges: vec[i64], others: vec[i64]) -> bool:
+        boxes = vec[float]()
+        boxes = boxes_of_edges(self.table, self.i, self.p, edges, self.rho, boxes)
+        boxes = boxes_of_edges(self.table, self.j, self.q, others, self.rho, boxes)
+        n: i64 = len(edges)
+        met = strips(boxes, n)
+        k: i64 = 0
+        while k < len(met):
+            if self.may_meet(edges[met[k]], others[met[k + 1] - n]):
+                return True
+            k += 2
+        return False
+
+    def may_meet(self, edge: i64, other: i64) -> bool:
+        """Return True unless two edges are certainly apart.
+
+        They are if the line of one has the other one on one side, or, for edges on one line, if
+        their boxes are apart.
+        """
+        table, p, q = self.table, self.p.rows, self.q.rows
+        e, f = table.edge[self.i] + edge, table.edge[self.j] + other
+        a, b = table.begins[e], table.ends[e]
+        c, d = table.begins[f], table.ends[f]
+        of_c, of_d = self.side(p, a, b, q, c), self.side(p, a, b, q, d)
+        if of_c != 0 and of_c == of_d:
+            return False
+        of_a, of_b = self.side(q, c, d, p, a), self.side(q, c, d, p, b)
+        if of_a != 0 and of_a == of_b:
+            return False
+        off = 2.0 * self.rho
+        left, right, bottom, top = edge_box(p, a, b, off)
+        low_x, high_x, low_y, high_y = edge_box(q, c, d, off)
+        return not (left > high_x or right < low_x or bottom > high_y or top < low_y)
+
+    def side(self, p: vec[float], a: i64, b: i64, q: vec[float], v: i64) -> i64:
+        """Return the side of an edge on which a vertex is: 1 is left, -1 right, 0 not certain."""
+        i, j, k = ROW * a, ROW * b, ROW * v
+        ux, uy = p[j] - p[i], p[j + Y0] - p[i + Y0]
+        zx, zy = q[k] - p[i], q[k + Y0] - p[i + Y0]
+        left, right = ux * zy, uy * zx
+        sizes = abs(ux) + abs(uy) + abs(zx) + abs(zy)
+        off = 2.0 * self.rho * (sizes + 2.0 * self.rho)
+        bound = (off + 8.0 * U * (abs(left) + abs(right))) * SLACK + TINY
+        if left - right > bound:
+            return 1
+        return -1 if left - right < -bound else 0
+
+    def is_second_outside(self) -> bool:
+        """Return True if all of the second piece is certainly outside of the first one.
+
+        It must be known that no edges meet: then a part is outside if one vertex of it is.
+        """
+        if not has_ring(self.table, self.i):
+            return True
+        vertices = vertices_of_parts(self.table, self.j)
+        k: i64 = 0
+        while k < len(vertices):
+            if not self.is_outside(vertices[k]):
+                return False
+            k += 1
+        return True
+
+    def is_outside(self, v: i64) -> bool:
+        """Return True if a vertex of the second piece is certainly outside of the first one.
+
+        An edge crosses the ray to the right of the vertex if one of its ends is above the vertex,
+        the other one not, and if the vertex is to the left of the edge as it leads upward.
+        """
+        table, p, q = self.table, self.p.rows, self.q.rows
+        x, y = q[ROW * v], q[ROW * v + Y0]
+        is_outside = True
+        e = table.edge[self.i]
+        end = e + table.edges[self.i]
+        while e < end:
+            a, b = table.begins[e], table.ends[e]
+            e += 1
+            if max(p[ROW * a], p[ROW * b]) < x:
+                continue
+            is_up = p[ROW * b + Y0] > y
+            if is_up == (p[ROW * a + Y0] > y):
+                continue
+            side = self.side(p, a, b, q, v)
+            if side == 0:
+                return False
+            if (side > 0) == is_up:
+                is_outside = not is_outside
+        return is_outside
+
+
+def span_along(rows: vec[float], n: i64, nx: float, ny: float) -> tuple[float, float, float]:
+    """Return bounds of the products of vertices with a normal, and of the sizes of their terms."""
+    low, high, terms = INFINITY, -INFINITY, 0.0
+    v: i64 = 0
+    while v < n:
+        x, y = nx * rows[ROW * v], ny * rows[ROW * v + Y0]
+        terms = max(terms, abs(x) + abs(y))
+        low, high = min(low, x + y), max(high, x + y)
+        v += 1
+    return low, high, terms
+
+
+def near_edges(table: Table, k: i64, p: Window, q: Window) -> vec[i64]:
+    """Return the edges of piece k, with the window p, that meet the box of the other piece."""
+    found = vec[i64]()
+    off = 2.0 * (p.rho + q.rho)
+    first = table.edge[k]
+    e: i64 = 0
+    while e < table.edges[k]:
+        a, b = table.begins[first + e], table.ends[first + e]
+        left, right, bottom, top = edge_box(p.rows, a, b, off)
+        if not (left > q.right or right < q.left or bottom > q.top or top < q.bottom):
+            found = append(found, e)
+        e += 1
+    return found
+
+
+def boxes_of_edges(
+    table: Table, k: i64, p: Window, edges: vec[i64], rho: float, boxes: vec[float]
+) -> vec[float]:
+    """Return the boxes, and after them those of some edges of piece k, with the window p."""
+    n: i64 = 0
+    while n < len(edges):
+        e = table.edge[k] + edges[n]
+        left, right, bottom, top = edge_box(p.rows, table.begins[e], table.ends[e], 2.0 * rho)
+        boxes = append_box(boxes, left, right, bottom, top)
+        n += 1
+    return boxes
+
+
+def has_ring(table: Table, k: i64) -> bool:
+    """Return True if the edges of a piece may enclose something: if they are not only chains.
+
+    Edges that all lead from a vertex to the next one, or from a vertex to itself, make no ring.
+    """
+    e = table.edge[k]
+    end = e + table.edges[k]
+    while e < end:
+        step = table.ends[e] - table.begins[e]
+        if step < 0 or step > 1:
+            return True
+        e += 1
+    return False
+
+
+def vertices_of_parts(table: Table, k: i64) -> vec[i64]:
+    """Return a vertex of each part of a piece, or more; parts have no vertex in common.
+
+    To the least vertex of a part no edge leads from the vertex before, as that is in another part.
+    So those vertices are found to which no such edge leads.
+    """
+    n = table.size[k]
+    follows = zeros(n)
+    e = table.edge[k]
+    end = e + table.edges[k]
+    while e < end:
+        if table.ends[e] == table.begins[e] + 1:
+            follows[table.ends[e]] = 1
+        e += 1
+    found = vec[i64]()
+    v: i64 = 0
+    while v < n:
+        if follows[v] == 0:
+            found = append(found, v)
+        v += 1
+    return found

@@ -1,0 +1,267 @@
+"""The vertices of a piece in a window of time: models of their coordinates, and one bound.
+
+A piece takes the place (dx, dy) of a vertex to
+
+    x = p_x(t) + a(t) dx + b(t) dy,    y = p_y(t) + c(t) dx + d(t) dy.
+
+The path p and the matrix (a, b; c, d) become models (`exactpt.filters.models`) once for all
+vertices. What is left for a vertex is six sums of three terms: x0 + x1 s + x2 s^2 and y0 + y1 s +
+y2 s^2. Both are right within `Window.rho` for all s in [-1, 1].
+
+The bound of x, and that of y with c and d. |f| is the sum of the sizes of the coefficients of a
+model, r_f its remainder, D the largest |dx| or |dy| of the piece:
+
+* r_p + (r_a + r_b) D, from the models;
+* ``place_error`` (|a| + r_a + |b| + r_b), from places that are off by so much;
+* ``path_error`` + ``speed_error`` |t|, from the path;
+* 16 U (|p| + (|a| + |b|) D), from rounding: a term goes through 3 operations.
+
+NaN and infinity. 0 times the sum of all places is 0, or a NaN if one of them is no finite number.
+It is added to D. So a NaN in a place or a coefficient ends as rho = NaN, and then no box excludes
+anything.
+"""
+
+from typing import Final
+
+from librt.vecs import append, vec
+from mypy_extensions import i64
+
+from exactpt.filters.models import ROUNDING, of_polynomial, size_of, turn
+from exactpt.filters.rounding import INFINITY, SLACK
+from exactpt.filters.rows import AFFINE, COEFFICIENTS, FRAME, OWN, STRAIGHT, TURNING, Table
+
+ROW: Final[i64] = 6
+"""Numbers of a vertex: x0, x1, x2, y0, y1, y2."""
+X0: Final[i64] = 0
+X1: Final[i64] = 1
+X2: Final[i64] = 2
+Y0: Final[i64] = 3
+Y1: Final[i64] = 4
+Y2: Final[i64] = 5
+NOTHING: Final = 0.0
+"""A factor that makes a NaN of an infinity and keeps a NaN."""
+
+
+class Window:
+    """All vertices of a piece in a window of time.
+
+    Attributes:
+        piece: the number of the piece in the table.
+        rows: `ROW` numbers a vertex.
+        rho: bounds the errors of all of them, in x and in y.
+        remainder: the part of rho that comes from remainders: what a shorter window makes smaller.
+        left, right, bottom, top: the box of all vertices during the window.
+        has_rigid_edges: whether all edges keep their lengths.
+        is_coarse: whether the piece turns too far for a model of its turn: a shorter window has
+            one.
+    """
+
+    def __init__(self) -> None:
+        self.piece: i64 = -1
+        self.rows = vec[float]()
+        self.rho = 0.0
+        self.remainder = 0.0
+        self.left = 0.0
+        self.right = 0.0
+        self.bottom = 0.0
+        self.top = 0.0
+        self.has_rigid_edges = True
+        self.is_coarse = False
+
+    def fill(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of a piece in [middle - half, middle + half], and the box of them."""
+        n, kind = table.size[piece], table.kind[piece]
+        while len(self.rows) < ROW * n:
+            self.rows = append(self.rows, 0.0)
+        self.piece = piece
+        self.has_rigid_edges = kind < AFFINE
+        self.is_coarse = False
+        if kind == OWN:
+            self._fill_own(table, piece, middle, half)
+        elif kind == TURNING:
+            self._fill_turning(table, piece, middle, half)
+        elif kind == AFFINE:
+            self._fill_affine(table, piece, middle, half)
+        else:
+            self._fill_translated(table, piece, middle, half)
+        self._find_box(n)
+
+    def _fill_own(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of vertices that move by themselves."""
+        rows, own = self.rows, table.own
+        first, n = COEFFICIENTS * table.place[piece], table.size[piece]
+        remainder = 0.0
+        v: i64 = 0
+        while v < n:
+            at = first + COEFFICIENTS * v
+            x0, x1, x2, x_rest = of_polynomial(own, at, middle, half)
+            y0, y1, y2, y_rest = of_polynomial(own, at + 4, middle, half)
+            row = ROW * v
+            rows[row + X0], rows[row + X1], rows[row + X2] = x0, x1, x2
+            rows[row + Y0], rows[row + Y1], rows[row + Y2] = y0, y1, y2
+            remainder = larger(remainder, larger(x_rest, y_rest))
+            v += 1
+        self.rho = (remainder + given_error(table, piece, middle, half, 1.0)) * SLACK
+        self.remainder = remainder
+
+    def _fill_translated(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of vertices that keep their places beside a path: a = d = 1, b = c = 0."""
+        at = FRAME * piece
+        px0, px1, px2, px_rest = of_polynomial(table.frames, at, middle, half)
+        py0, py1, py2, py_rest = of_polynomial(table.frames, at + 4, middle, half)
+        rows, xs, ys = self.rows, table.xs, table.ys
+        first, n = table.place[piece], table.size[piece]
+        reach, total = 0.0, 0.0
+        v: i64 = 0
+        while v < n:
+            x, y = xs[first + v], ys[first + v]
+            reach = max(reach, abs(x))
+            reach = max(reach, abs(y))
+            total += x + y
+            row = ROW * v
+            rows[row + X0], rows[row + X1], rows[row + X2] = px0 + x, px1, px2
+            rows[row + Y0], rows[row + Y1], rows[row + Y2] = py0 + y, py1, py2
+            v += 1
+        place = reach + NOTHING * total
+        path_size = larger(abs(px0) + abs(px1) + abs(px2), abs(py0) + abs(py1) + abs(py2))
+        remainder = larger(px_rest, py_rest)
+        rounding = ROUNDING * (path_size + place)
+        self.rho = (remainder + rounding + given_error(table, piece, middle, half, 1.0)) * SLACK
+        self.remainder = 0.0 if table.kind[piece] == STRAIGHT else remainder
+
+    def _fill_turning(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of vertices that turn: a = d is the cosine, c = -b is the sine."""
+        at = FRAME * piece
+        path_x = of_polynomial(table.frames, at, middle, half)
+        path_y = of_polynomial(table.frames, at + 4, middle, half)
+        cosine, sine = turn(of_polynomial(table.frames, at + 8, middle, half))
+        px0, px1, px2, _ = path_x
+        py0, py1, py2, _ = path_y
+        c0, c1, c2, c_rest = cosine
+        s0, s1, s2, s_rest = sine
+        rows, xs, ys = self.rows, table.xs, table.ys
+        first, n = table.place[piece], table.size[piece]
+        reach, total = 0.0, 0.0
+        v: i64 = 0
+        while v < n:
+            x, y = xs[first + v], ys[first + v]
+            reach = max(reach, abs(x))
+            reach = max(reach, abs(y))
+            total += x + y
+            row = ROW * v
+            rows[row + X0] = px0 + (c0 * x - s0 * y)
+            rows[row + X1] = px1 + (c1 * x - s1 * y)
+            rows[row + X2] = px2 + (c2 * x - s2 * y)
+            rows[row + Y0] = py0 + (s0 * x + c0 * y)
+            rows[row + Y1] = py1 + (s1 * x + c1 * y)
+            rows[row + Y2] = py2 + (s2 * x + c2 * y)
+            v += 1
+        self.is_coarse = c_rest == 1.0  # see `turn`
+        place = reach + NOTHING * total
+        path_size = larger(size_of(path_x), size_of(path_y))
+        rest, size = c_rest + s_rest, size_of(cosine) + size_of(sine)
+        remainder = larger(path_x[3], path_y[3]) + rest * place
+        rounding = ROUNDING * (path_size + size * place)
+        given = given_error(table, piece, middle, half, size + rest)
+        self.rho = (remainder + rounding + given) * SLACK
+        self.remainder = remainder
+
+    def _fill_affine(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of vertices in a frame of four polynomials a, b, c, d."""
+        at = FRAME * piece
+        path_x = of_polynomial(table.frames, at, middle, half)
+        path_y = of_polynomial(table.frames, at + 4, middle, half)
+        a = of_polynomial(table.frames, at + 8, middle, half)
+        b = of_polynomial(table.frames, at + 12, middle, half)
+        c = of_polynomial(table.frames, at + 16, middle, half)
+        d = of_polynomial(table.frames, at + 20, middle, half)
+        rows, xs, ys = self.rows, table.xs, table.ys
+        first, n = table.place[piece], table.size[piece]
+        reach, total = 0.0, 0.0
+        v: i64 = 0
+        while v < n:
+            x, y = xs[first + v], ys[first + v]
+            reach = max(reach, abs(x))
+            reach = max(reach, abs(y))
+            total += x + y
+            row = ROW * v
+            rows[row + X0] = path_x[0] + (a[0] * x + b[0] * y)
+            rows[row + X1] = path_x[1] + (a[1] * x + b[1] * y)
+            rows[row + X2] = path_x[2] + (a[2] * x + b[2] * y)
+            rows[row + Y0] = path_y[0] + (c[0] * x + d[0] * y)
+            rows[row + Y1] = path_y[1] + (c[1] * x + d[1] * y)
+            rows[row + Y2] = path_y[2] + (c[2] * x + d[2] * y)
+            v += 1
+        place = reach + NOTHING * total
+        path_size = larger(size_of(path_x), size_of(path_y))
+        rest = larger(a[3] + b[3], c[3] + d[3])
+        size = larger(size_of(a) + size_of(b), size_of(c) + size_of(d))
+        remainder = larger(path_x[3], path_y[3]) + rest * place
+        rounding = ROUNDING * (path_size + size * place)
+        given = given_error(table, piece, middle, half, size + rest)
+        self.rho = (remainder + rounding + given) * SLACK
+        self.remainder = remainder
+
+    def _find_box(self, n: i64) -> None:
+        """Set the box of all vertices; the margin is that of `edge_box`."""
+        rows, rho = self.rows, self.rho
+        left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+        v: i64 = 0
+        while v < n:
+            row = ROW * v
+            x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
+            y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
+            left, right = min(left, x - x_way), max(right, x + x_way)
+            bottom, top = min(bottom, y - y_way), max(top, y + y_way)
+            v += 1
+        margin = (rho + ROUNDING * (abs(left) + abs(right) + abs(bottom) + abs(top))) * SLACK
+        self.left, self.right = left - margin, right + margin
+        self.bottom, self.top = bottom - margin, top + margin
+
+
+def given_error(table: Table, piece: i64, middle: float, half: float, factor: float) -> float:
+    """Return a bound of what the errors of places and of the path make of a vertex.
+
+    Args:
+        table: has the errors.
+        piece: the number of the piece.
+        middle: the middle of the window.
+        half: half its width.
+        factor: bounds |a| + |b| and |c| + |d| in the window.
+    """
+    latest = abs(middle) + half
+    path = table.path_error[piece] + table.speed_error[piece] * latest
+    return path + table.place_error[piece] * factor
+
+
+def larger(x: float, y: float) -> float:
+    """Return the larger number; a NaN if one is."""
+    if x > y:
+        return x
+    return y if y >= x else x + y
+
+
+def edge_box(rows: vec[float], i: i64, j: i64, d: float) -> tuple[float, float, float, float]:
+    """Return the left, right, lower and upper sides of a box of an edge in a window.
+
+    A coordinate x0 + x1 s + x2 s^2 is within |x1| + |x2| of x0.
+
+    Args:
+        rows: those of `Window`.
+        i: the number of one end.
+        j: that of the other end.
+        d: a distance by which the box is grown. It should be 2 rho or more: one rho for the error
+            of the rows, and one for the rounding of x0 -+ (|x1| + |x2|) here and of the
+            coordinates that the caller compares; rho is at least 16 U of the size of each row.
+    """
+    row = ROW * i
+    x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
+    y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
+    left, right, bottom, top = x - x_way, x + x_way, y - y_way, y + y_way
+    row = ROW * j
+    x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
+    y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
+    left, right = min(left, x - x_way), max(right, x + x_way)
+    bottom, top = min(bottom, y - y_way), max(top, y + y_way)
+    margin = d + ROUNDING * (abs(left) + abs(right) + abs(bottom) + abs(top))
+    return left - margin, right + margin, bottom - margin, top + margin

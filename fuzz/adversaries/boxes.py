@@ -1,0 +1,219 @@
+"""Boxes of pieces against exact positions, and the pairs of boxes that meet against all pairs.
+
+``python -m fuzz.adversaries.boxes --rows 10000000 --seed 1``. A row is a coordinate of a vertex at
+a rational time of the window: it must lie inside the box of its piece, at least the radius away
+from its sides. For pairs, a row is a pair of boxes.
+
+The bound is that of rounding: 16 U of the sizes of all terms. Windows end at times that are asked,
+errors are as large as stated, and drifts are far larger than velocities, or equal to them: so
+many coordinates are as near a side as the bound allows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from dataclasses import dataclass
+from random import Random
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from librt.vecs import vec
+
+from exactpt.filters import boxes
+from exactpt.filters.rounding import U
+from exactpt.filters.rows import AFFINE, OWN, TURNING, Table
+from exactpt.kernel.numbers import QQ, nearest_float, rational
+from fuzz.adversaries.pieces import KINDS, STYLES, Piece, made
+
+__all__ = ["Found", "attack_pieces", "attack_strips"]
+
+Truths: TypeAlias = npt.NDArray[np.bool_]
+
+UNIT: Final = 16.0 * U
+
+
+@dataclass
+class Found:
+    """What an attack found.
+
+    Attributes:
+        rows: how many were checked.
+        near: how many of them were nearer to the side of the box than two bounds.
+        least: the least distance from a side, by the bound.
+        wrong: how many answers were wrong.
+        first: the first of these.
+    """
+
+    rows: int = 0
+    near: int = 0
+    least: float = math.inf
+    wrong: int = 0
+    first: str = ""
+
+    def fail(self, text: str) -> None:
+        """Count a wrong answer."""
+        self.wrong += 1
+        self.first = self.first or text
+
+    def line(self, name: str) -> str:
+        """Return a line of the table."""
+        return f"{name:26}{self.rows:>12,}{self.near:>12,}{self.least:>10.4f}{self.wrong:>7}"
+
+
+def attack_pieces(kind: int, rows: int, seed: int) -> Found:
+    """Attack the boxes of pieces of one kind."""
+    rng, found = Random(seed), Found()
+    while found.rows < rows:
+        style = rng.choice(STYLES)
+        piece = made(rng, kind, style, rng.choice((1, 2, 3, 4, 6)))
+        for _ in range(3):
+            _attack_window(rng, piece, style, found)
+    return found
+
+
+def _attack_window(rng: Random, piece: Piece, style: str, found: Found) -> None:
+    """Attack the box of one piece in one window."""
+    low = rng.choice((0.0, rng.uniform(-9, 9), float(rng.randint(-9, 9))))
+    if style == "random" and rng.random() < 0.2:
+        low = rng.uniform(-1, 1) * 2.0 ** rng.randint(10, 30)
+    high = low + rng.choice((0.0, 1.0, rng.random())) * 2.0 ** -rng.randint(0, 45)
+    drifts = _drift(rng, piece, 0), _drift(rng, piece, 1)
+    table = Table()
+    k = piece.add_to(table, 0, low, high)
+    table.radius[k] = radius = rng.choice((0.0, 0.0, 1.0 / 3.0))
+    left, right, bottom, top = boxes.of_piece(table, k, low, high, *drifts)
+    first, last = rational(low), rational(high)
+    times = (first, last, first + (last - first) * rng.randint(1, 9) / 10)
+    latest = max(abs(low), abs(high))
+    for t in times:
+        for v, (x, y) in enumerate(piece.at(t)):
+            size_x = _size(piece, v, 0, latest) + 2.0 * abs(drifts[0]) * latest
+            size_y = _size(piece, v, 1, latest) + 2.0 * abs(drifts[1]) * latest
+            _check(x - rational(drifts[0]) * t, left, right, radius, size_x, found)
+            _check(y - rational(drifts[1]) * t, bottom, top, radius, size_y, found)
+
+
+def _drift(rng: Random, piece: Piece, axis: int) -> float:
+    """Return a common velocity: none, that of the piece, or a much larger one."""
+    speed = (piece.near_own if piece.kind == OWN else piece.near_frame)[4 * axis + 1]
+    return rng.choice((0.0, speed, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**40))
+
+
+def _size(piece: Piece, v: int, axis: int, latest: float) -> float:
+    """Return the sum of the sizes of all terms of a coordinate, without the drift."""
+    if piece.kind == OWN:
+        return _reach(piece.own[v][axis], latest)
+    size = _reach(piece.frame[axis], latest)
+    xs, ys = (max(abs(place[i]) for place in piece.near_places) for i in (0, 1))
+    if piece.kind == AFFINE:
+        along_x, along_y = piece.frame[2 + 2 * axis : 4 + 2 * axis]
+        return size + _reach(along_x, latest) * xs + _reach(along_y, latest) * ys
+    if piece.kind == TURNING:
+        return size + math.hypot(xs, ys)
+    return size + (xs, ys)[axis]
+
+
+def _reach(f: tuple[QQ, ...], latest: float) -> float:
+    return sum(abs(nearest_float(c)) * latest**i for i, c in enumerate(f))
+
+
+def _check(x: QQ, low: float, high: float, radius: float, size: float, found: Found) -> None:
+    """Check that a coordinate is inside, a radius away from both sides."""
+    found.rows += 1
+    if low == -math.inf or high == math.inf:
+        return
+    exact = rational(radius)
+    gap = min(x - exact - rational(low), rational(high) - x - exact)
+    if gap < 0:
+        found.fail(f"{x} is outside of [{low!r}, {high!r}] by {nearest_float(-gap)}")
+    bound = UNIT * size
+    if bound > 1e-300:
+        ratio = nearest_float(gap) / bound
+        found.least = min(found.least, ratio)
+        found.near += ratio < 2.0
+
+
+def attack_strips(rows: int, seed: int) -> Found:
+    """Attack the pairs of boxes that meet; near are those that have only a side in common."""
+    rng, found = Random(seed), Found()
+    while found.rows < rows:
+        sides = _sides(rng)
+        split = rng.choice((0, 0, rng.randrange(len(sides) + 1)))
+        flat = vec[float](sides.ravel().tolist())
+        pairs = list(boxes.strips(flat, split))
+        claimed = list(zip(pairs[::2], pairs[1::2], strict=True))
+        meet, touch = _meeting(sides)
+        if split > 0:
+            is_first = np.arange(len(sides)) < split
+            meet &= is_first[:, None] != is_first[None, :]
+        right = {(int(i), int(j)) for i, j in np.argwhere(np.triu(meet, 1))}
+        found.rows += len(sides) * (len(sides) - 1) // 2
+        found.near += int(np.triu(meet & touch, 1).sum())
+        if len(claimed) != len(set(claimed)) or set(claimed) != right:
+            lost, more = right - set(claimed), set(claimed) - right
+            found.fail(f"{len(sides)} boxes, split {split}: lost {lost}, more {more}")
+    return found
+
+
+def _sides(rng: Random) -> npt.NDArray[np.float64]:
+    """Return boxes: of integers, of doubles, equal, nested, flat, unbounded, undefined."""
+    numbers = np.random.default_rng(rng.getrandbits(32))
+    n = rng.choice((1, 2, 5, 40, 128, 129, 300, 900))
+    scale = 2.0 ** rng.choice((0, 0, 0, 100, -300, -1060))
+    extent = rng.choice((3, 30, 300))
+    if rng.random() < 0.5:
+        corner = numbers.integers(-extent, extent, (n, 2)).astype(float)
+        sizes = numbers.integers(0, 4, (n, 2)).astype(float)
+    else:
+        corner = numbers.uniform(-extent, extent, (n, 2))
+        sizes = numbers.exponential(rng.choice((0.1, 1.0, 30.0)), (n, 2))
+    if rng.random() < 0.2:
+        sizes *= 10.0 ** numbers.uniform(-6, 3, (n, 1))  # nested ones
+    if rng.random() < 0.2:
+        corner[:, rng.randrange(2)] = 1.0  # all in one row
+    ends = corner + sizes
+    sides = np.stack((corner[:, 0], ends[:, 0], corner[:, 1], ends[:, 1]), axis=1) * scale
+    if rng.random() < 0.3:
+        odd = numbers.random((n, 4)) < 0.05
+        outward = np.array([-math.inf, math.inf, -math.inf, math.inf])
+        sides = np.where(odd, rng.choice((outward, np.full(4, math.nan))), sides)
+    if rng.random() < 0.1:
+        sides[: n // 2] = sides[0]
+    return sides
+
+
+def _meeting(sides: npt.NDArray[np.float64]) -> tuple[Truths, Truths]:
+    """Return which boxes are not apart, and which of these have only a side in common."""
+    left, right, bottom, top = sides.T
+    apart = (left[:, None] > right) | (bottom[:, None] > top)
+    edge = (left[:, None] == right) | (bottom[:, None] == top)
+    return ~(apart | apart.T), edge | edge.T
+
+
+def main() -> None:
+    """Attack, and print a table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rows", type=int, default=100_000)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    each = options.rows // (len(KINDS) + 1)
+    show(f"{'':26}{'rows':>12}{'near':>12}{'least':>10}{'wrong':>7}")
+    for name, kind in KINDS.items():
+        found = attack_pieces(kind, each, options.seed)
+        show(f"{found.line(f'boxes, {name}')} {found.first}")
+    found = attack_strips(each, options.seed)
+    found.least = 0.0
+    show(f"{found.line('pairs of boxes')} {found.first}")
+
+
+def show(line: str) -> None:
+    """Print a line at once."""
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()

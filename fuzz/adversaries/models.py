@@ -1,0 +1,174 @@
+"""Models of functions against their exact values: is each within its remainder?
+
+A row is a model made by one operation and a rational s in [-1, 1]. The functions that go into it
+are as far from their own models as their remainders allow, and on the side on which the error of
+the result grows. The error is that of the model at s, relative to its remainder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
+from typing import Final, TypeAlias
+
+from librt.vecs import vec
+
+from exactpt.filters import models
+from exactpt.filters.models import Model
+from exactpt.filters.rounding import INFINITY, U
+from exactpt.kernel.numbers import QQ, nearest_float, of_double, sign
+from fuzz.adversaries.report import Part, Report, run
+
+__all__ = ["PARTS"]
+
+Function: TypeAlias = Callable[[QQ, QQ], QQ]
+UNIT = of_double(U)
+
+
+def coefficient(rng: Random) -> float:
+    """Return a double of one of several kinds."""
+    kind = rng.random()
+    if kind < 0.15:
+        return 0.0
+    if kind < 0.4:
+        return float(rng.randint(-9, 9))
+    if kind < 0.8:
+        return rng.uniform(-1.0, 1.0)
+    return rng.uniform(-1.0, 1.0) * 2.0 ** rng.randint(-60, 60)
+
+
+def instant(rng: Random) -> QQ:
+    """Return s in [-1, 1]."""
+    kind = rng.random()
+    if kind < 0.4:
+        return QQ(rng.choice([-1, 1]))
+    if kind < 0.5:
+        return QQ(0)
+    return of_double(rng.uniform(-1.0, 1.0))
+
+
+def window(rng: Random) -> tuple[float, float]:
+    """Return a middle and half a width: 1 to 2^-40 of the middle, or beside 0."""
+    middle = rng.choice([0.0, 1.0, 2.0 ** rng.randint(-30, 30)]) * rng.uniform(-1.0, 1.0)
+    scale = abs(middle) or 1.0
+    return middle, rng.choice([0.0, 1.0, 2.0 ** -rng.randint(0, 40), rng.random()]) * scale
+
+
+def value_of(f: Model, s: QQ) -> QQ:
+    """Return the quadratic of a model at s."""
+    c0, c1, c2 = (of_double(c) for c in f[:3])
+    return c0 + s * (c1 + s * c2)
+
+
+def measure(report: Report, f: Model, s: QQ, exact: QQ, what: object) -> None:
+    """Compare a model with an exact value."""
+    if not f[3] < INFINITY:
+        report.count("no model")
+        return
+    ratio = abs(value_of(f, s) - exact) / of_double(f[3])
+    report.measure(nearest_float(ratio))
+    if ratio > 1:
+        report.wrong.append(f"{nearest_float(ratio):.4f} {what} {f} s = {s}")
+
+
+def polynomials(rows: int, seed: int) -> Report:
+    """Check models of polynomials whose coefficients are off by U."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        c = [coefficient(rng) for _ in range(4)]
+        middle, half = window(rng)
+        s = instant(rng)
+        t = of_double(middle) + of_double(half) * s
+        terms = [of_double(c[k]) * t**k for k in range(4)]
+        f = models.of_polynomial(vec[float](c), 0, middle, half)
+        off = value_of(f, s) - sum(terms)
+        exact = sum(terms) - sign(off) * UNIT * sum(map(abs, terms))
+        measure(report, f, s, exact, (c, middle, half))
+    return report
+
+
+def drawn(rng: Random, scale: float = 1.0) -> Model:
+    """Return a model: quadratic, and a remainder of any size."""
+    c0, c1, c2 = (coefficient(rng) for _ in range(3))
+    change = rng.choice([1.0, 2.0 ** -rng.randint(0, 40)]) * scale
+    size = abs(c0) + abs(c1) + abs(c2)
+    rest = rng.choice([0.0, U, 2.0 ** -rng.randint(0, 50)]) * size * scale
+    return c0, c1 * change, c2 * change * change, rest
+
+
+def farthest(results: list[QQ], f: Model, s: QQ) -> QQ:
+    """Return the result that is farthest from a model."""
+    at_s = value_of(f, s)
+    return max(results, key=lambda exact: abs(exact - at_s))
+
+
+def ends(f: Model, s: QQ) -> tuple[QQ, QQ]:
+    """Return the least and the largest value of the functions of a model at s."""
+    at_s, rest = value_of(f, s), of_double(f[3])
+    return at_s - rest, at_s + rest
+
+
+def sums(rows: int, seed: int) -> Report:
+    """Check sums and differences."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        f, g, s = drawn(rng), drawn(rng), instant(rng)
+        total, difference = models.plus(f, g), models.minus(f, g)
+        pairs = [(x, y) for x in ends(f, s) for y in ends(g, s)]
+        measure(report, total, s, farthest([x + y for x, y in pairs], total, s), (f, g))
+        measure(report, difference, s, farthest([x - y for x, y in pairs], difference, s), (f, g))
+    return report
+
+
+def products(rows: int, seed: int) -> Report:
+    """Check products."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        f, g, s = drawn(rng), drawn(rng), instant(rng)
+        product = models.times(f, g)
+        exact = [x * y for x in ends(f, s) for y in ends(g, s)]
+        measure(report, product, s, farthest(exact, product, s), (f, g))
+    return report
+
+
+def inverses(rows: int, seed: int) -> Report:
+    """Check inverses of functions that are nearly constant, and of others."""
+    report, rng = Report(), Random(seed)
+    while report.rows + report.counts.get("no model", 0) < rows:
+        c0, c1, c2, rest = drawn(rng, 0.3)
+        w = (c0 or 1.0) * rng.choice([1.0, 2.0, 8.0]), c1, c2, rest
+        s = instant(rng)
+        inverse = models.inverse(w)
+        if not inverse[3] < INFINITY:
+            report.count("no model")
+            continue
+        measure(report, inverse, s, farthest([1 / x for x in ends(w, s)], inverse, s), w)
+    return report
+
+
+def turns(rows: int, seed: int) -> Report:
+    """Check the cosine and the sine of an angle by the tangent of its half."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        h, s = drawn(rng, rng.choice([1.0, 0.1])), instant(rng)
+        cosine, sine = models.turn(h)
+        tangents = ends(h, s)
+        cosines = [(1 - x * x) / (1 + x * x) for x in tangents]
+        sines = [2 * x / (1 + x * x) for x in tangents]
+        if cosine[3] == 1.0:
+            report.count("coarse")
+        measure(report, cosine, s, farthest(cosines, cosine, s), h)
+        measure(report, sine, s, farthest(sines, sine, s), h)
+    return report
+
+
+PARTS: Final[dict[str, Part]] = {
+    "polynomials": polynomials,
+    "sums": sums,
+    "products": products,
+    "inverses": inverses,
+    "turns": turns,
+}
+
+if __name__ == "__main__":
+    run(PARTS, __doc__ or "")

@@ -1,0 +1,78 @@
+"""Lines that separate two pieces: never wrong, and found where they are plain."""
+
+import pytest
+
+from exactpt.filters import separation
+from exactpt.filters.rows import Table
+from exactpt.filters.separation import are_separated
+from fuzz.adversaries.separation import attack
+from fuzz.power.edits import Edit
+
+PLANTED = {
+    "no margin": Edit(separation.Gap, "is_across", " + TINY", " * 0.0"),
+    "no rounding": Edit(separation.Gap, "__init__", " + K * size", ""),
+    "no stated errors": Edit(separation.Gap, "__init__", "2.0 * error + ", ""),
+    "the begin alone": Edit(
+        separation.Gap, "is_across", "begin, end = c + w * self.low, c + w * self.high",
+        "begin = end = c + w * self.low",
+    ),
+    "the end alone": Edit(
+        separation.Gap, "is_across", "begin, end = c + w * self.low, c + w * self.high",
+        "begin = end = c + w * self.high",
+    ),
+    "the wrong extreme": Edit(separation.Gap, "is_across", "most_a + max(", "least_a + max("),
+    "infinite motion": Edit(
+        separation.Gap, "is_across", "-INFINITY < begin < INFINITY and", "True and"
+    ),
+    "infinite numbers": Edit(separation, "extent", "not -INFINITY < along < INFINITY", "False"),
+}  # fmt: skip
+
+
+def triangles(x, y, velocity, size=1.0):
+    """A long thin triangle at an angle, and the same one beside it, which moves."""
+    table = Table()
+    shape = [(0.0, 0.0), (100.0 * size, 100.0 * size), (100.0 * size, 101.0 * size)]
+    for dx, dy, (vx, vy) in ((0.0, 0.0, (0.0, 0.0)), (x, y, velocity)):
+        xs, ys = [px + dx for px, _ in shape], [py + dy for _, py in shape]
+        table.add_straight(table.count(), 0.0, 10.0, xs, ys, (0.0, vx), (0.0, vy), 0.0)
+    return table
+
+
+def test_thin_bodies_side_by_side_are_separated_across_their_longest_edge():
+    """Their boxes overlap. Across (-1, 1) the one is in [0, 1], the other in [5, 6] less t / 2."""
+    table = triangles(0.0, 5.0, (0.25, -0.25))
+
+    assert are_separated(table, 0, 1, 0.0, 7.0)
+    assert not are_separated(table, 0, 1, 0.0, 9.0)  # at t = 8 the gap is closed
+
+
+def test_bodies_that_pass_each_other_are_separated_across_their_relative_motion():
+    """Moving along (1, 1), the other stays in [3, 4] across (-1, 1), at all times."""
+    table = triangles(-200.0, -197.0, (40.0, 40.0))
+
+    assert are_separated(table, 0, 1, 0.0, 10.0)
+
+
+def test_touching_bodies_are_not_separated():
+    """The first triangle ends at y - x = 1, where the other one begins."""
+    assert not are_separated(triangles(0.0, 1.0, (0.0, 0.0)), 0, 1, 0.0, 1.0)
+
+
+@pytest.mark.parametrize("size", [2.0**-1060, 1e306])
+def test_numbers_at_the_ends_of_doubles_separate_nothing_wrongly(size):
+    assert not are_separated(triangles(0.0, size, (0.0, 0.0), size), 0, 1, 0.0, 1.0)
+
+
+def test_adversary_finds_no_wrong_answer():
+    report = attack(3000, 1)
+
+    assert report.wrong == []
+    assert report.counts["separated"] > 300
+    assert report.counts["touching"] > 300
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("name", PLANTED)
+def test_adversary_of_a_planted_mistake_finds_it(name):
+    with PLANTED[name].made():
+        assert any(attack(2000, seed).wrong for seed in range(1, 9))
