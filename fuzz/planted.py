@@ -30,10 +30,11 @@ from exactpt.motion.track import Track
 from exactpt.pair import near_features
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
-from exactpt.search import boxes, clearance
-from exactpt.search import linear as search
-from exactpt.search.boxes import PieceBoxes
-from exactpt.search.linear import LinearSearch
+from exactpt.search import clearance
+from exactpt.search.decide import Decider
+from exactpt.search.reading import Rows
+from exactpt.search.sweep import Ignored
+from exactpt.search.sweep_search import SlabsOfAll, Sweep
 from exactpt.tiling import driver, engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
@@ -45,12 +46,10 @@ from fuzz.power.edits import Edit, Function, Replacement
 __all__ = ["PLANTED", "Mistake"]
 
 RADIUS_IS_MASKED: Final = (
-    "A radius r is too small by less than 2 U r. From boxes [b, e] of the differences of two "
-    "bodies times are bounded with a margin of at least 16 U (|b| + |e|), of which rounding needs "
-    "less than half; and e - b is at least twice the sum of the radii. The margin of oriented "
-    "boxes is that of the reach times 1 + 10^-10. Below the doubles each margin has 2^-500. Beyond "
-    "them, a pair with finite bounds is nearer than the largest double all the time, and so in "
-    "contact at the start."
+    "A radius r is too small by less than 2 U r, and positive. With R, the sum of two radii, the "
+    "distance of two boxes is compared with R times 1 + 10^-10; the bound of f = u x z - R |u| has "
+    "16 U R |u| for R and for |u|, of which rounding needs less than half; that of z . z - R^2 "
+    "likewise 16 U R^2. Below the doubles each bound has 2^-500."
 )
 SQUARES_ARE_MASKED: Final = (
     "Bodies are farther apart than R at the start, so that the constant term v of the squared "
@@ -359,13 +358,14 @@ PLANTED: Final[dict[str, Mistake]] = {
         "One of the terms of a bound is left out, which only large edges show.",
         Edit(near_features, "may_be_least", "far * off_edge + ", ""),
     ),
-    "times before 0 forgotten": Mistake(
-        "The largest size of a time is taken to be that of the end of its span.",
-        Edit(PieceBoxes, "_narrow", "np.maximum(np.abs(low), np.abs(high))", "np.abs(high)"),
-    ),
     "a radius rounded down": Mistake(
         "A bound is rounded to the wrong side.",
-        Edit(boxes, "radius_above", "(body.exact_radius)[1]", "(body.exact_radius)[0]"),
+        Edit(
+            Rows,
+            "_reach",
+            "enclosing_floats(reach)[1]",
+            "(enclosing_floats(reach)[0] or 2.0**-1074)",
+        ),
         RADIUS_IS_MASKED,
     ),
     "vertices of swapped bodies not swapped": Mistake(
@@ -418,13 +418,51 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "no contact for a double too long": Mistake(
         "A bound is rounded to the wrong side, where only the last double shows it.",
-        Edit(LinearSearch, "contact_free_until", "(low, -math.inf)", "(low, math.inf)"),
+        Edit(Sweep, "free_until", "nextafter(low, -math.inf)", "nextafter(low, math.inf)"),
+    ),
+    "a step of the length of the next one": Mistake(
+        "A value is used after it has changed.",
+        Edit(SlabsOfAll, "__iter__", "low = high", "low += length"),
+    ),
+    "groups but the first forgotten": Mistake(
+        "Of several the first one is taken for all.",
+        Edit(Ignored, "has", "while p < first[i + 1] and", "while p < first[i] + 1 and"),
+    ),
+    "the first decided taken for the earliest": Mistake(
+        "A bound of an order is taken for the order.",
+        Edit(Decider, "_decide_one_by_one", "candidate.low > self.best.high", "self.best.found"),
+    ),
+    "a contact after the slab taken for the first": Mistake(
+        "What is complete within an interval is used beyond it.",
+        Edit(Decider, "_decide_in_doubles", "and time <= of_double(until)", ""),
+    ),
+    "rounded rows taken for exact": Mistake(
+        "Rounded numbers are taken for exact ones.",
+        Edit(
+            Rows,
+            "_add_rounded",
+            "Errors(shape.error, straight.c_error, straight.v_error)",
+            "EXACT",
+        ),
+    ),
+    "a formula used beyond its piece": Mistake(
+        "A formula is used at times at which it does not hold.",
+        Edit(Rows, "_add_rounded", "self.has_pieces |= len(during) > 1", "pass"),
+    ),
+    "the later start of two pieces forgotten": Mistake(
+        "What begins for one of two is taken to begin for both.",
+        Edit(
+            Decider,
+            "_first",
+            "max(rows.spans[one].start, rows.spans[other].start)",
+            "rows.spans[one].start",
+        ),
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
         Edit(
-            search._Search,
-            "run",
+            Sweep,
+            "_search",
             "check_budget()\n        if self._deadline is not None and clock.monotonic() >",
             "if self._deadline is not None and clock.monotonic() - 3600 >",
         ),

@@ -13,7 +13,7 @@ from exactpt.brief import counted
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import shorten
-from exactpt.search.linear import pair_search
+from exactpt.search.first import pair_search
 
 if TYPE_CHECKING:
     from exactpt.pair.contact import Contact

@@ -45,9 +45,10 @@ def first_incidences(r: Relative, span: Span, reach: Floats | None = None) -> In
     Of cores that keep a distance R (``reach``, with a relative error of at most U) and that are
     farther apart at the start, the first times at which the vertex is at this distance from the
     edge, its foot on it. A vertex is at that distance from the line where the orientation f is
-    -h or h, h = R |u|. Where f is linear, only the smaller of the two roots may be a first contact
-    (`exactpt.search.straight_filter`): that of f + sgn(c1) h; where the sign of c1 is not known,
-    that of the side of the strip -h <= f <= h next to which f is at the start. R, |u| and their
+    -h or h, h = R |u|. Where f is linear, only the smaller of the two roots may be a first contact,
+    as from it to the larger one the vertex is in the strip -h <= f <= h: that of f + sgn(c1) h;
+    where the sign of c1 is not known, that of the side of the strip next to which f is at the
+    start. R, |u| and their
     product are off by at most 5 U of h, and by `TINY` |u| if R is not normal, the sum with c0 by
     U (|c0| + h).
     """

@@ -8,7 +8,7 @@ from typing import NamedTuple, final
 
 from exactpt.filters.rounding import FAR, TINY, U
 from exactpt.geometry.simple import is_surely_simple
-from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
@@ -213,9 +213,16 @@ def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float
     if near is not None and shift is None:
         return near[0] if near else 0.0, near[1] if len(near) > 1 else 0.0, 0.0, 0.0
     exact = f.exact_coefficients
-    c = nearest_float((exact[0] if exact else QQ(0)) + (shift or 0)) if exact or shift else 0.0
-    v = nearest_float(exact[1]) if len(exact) > 1 else 0.0
-    return c, v, _off(abs(c)), _off(abs(v))
+    c, c_error = _rounded((exact[0] if exact else QQ(0)) + (shift or 0))
+    v, v_error = _rounded(exact[1] if len(exact) > 1 else QQ(0))
+    return c, v, c_error, v_error
+
+
+def _rounded(number: QQ) -> tuple[float, float]:
+    """Return the nearest double, and a bound on its error: 0 if it is the number."""
+    near = nearest_float(number)
+    is_exact = math.isfinite(near) and of_double(near) == number
+    return near, 0.0 if is_exact else _off(abs(near))
 
 
 def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
@@ -234,10 +241,10 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
         return None
     firsts: list[tuple[float, float]] = []
     for body in bodies:
-        near, motion = body.exact_shape.near, pieces_of(body.motion)[0][0]
-        if not isinstance(motion, Translation) or not body.vertices:
+        motion = pieces_of(body.motion)[0][0]
+        if not isinstance(motion, Translation) or body.exact_shape.keyframes:
             return None
-        x, y = (near.xs[0], near.ys[0]) if near else map(_constant, body.vertices[0])
+        x, y = _first_vertex(body)
         firsts.append((x + _linear(motion.x)[0], y + _linear(motion.y)[0]))
     for places in zip(*firsts, strict=True):
         least, most = min(places), max(places)
@@ -251,6 +258,18 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
     return a.exact_at(QQ(0)) + motion.x.exact_at(QQ(0)), b.exact_at(QQ(0)) + motion.y.exact_at(
         QQ(0)
     )
+
+
+def _first_vertex(body: Body) -> tuple[float, float]:
+    """Return the first vertex of a body at rest, in doubles."""
+    doubles = body.exact_shape.doubles
+    if doubles is not None:
+        return doubles[0][0], doubles[1][0]
+    near = body.exact_shape.near
+    if near is not None:
+        return near.xs[0], near.ys[0]
+    x, y = body.vertices[0]
+    return _constant(x), _constant(y)
 
 
 def _is_exact(body: Body) -> bool:

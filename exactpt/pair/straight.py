@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.outline import Straight
 from exactpt.motion.track import Incidence
+
+Vector: TypeAlias = "tuple[QQ, QQ]"
 
 
 class Span(NamedTuple):
@@ -143,6 +145,49 @@ def double_above(time: QQ | AlgebraicNumber) -> float:
     return enclosing_floats(time)[1]
 
 
+class Meeting(NamedTuple):
+    """When a point in straight motion comes to an edge, and where.
+
+    Attributes:
+        time: the time.
+        end: 0 at the first end of the edge, 1 at the second one, None between them.
+    """
+
+    time: QQ
+    end: int | None
+
+
+def meeting_of_point_and_edge(z: Vector, w: Vector, u: Vector) -> Meeting | None:
+    """Return when the point z + w t first lies on the edge from 0 to u, which is not 0.
+
+    Returns:
+        None if it never does, or always.
+    """
+    (zx, zy), (wx, wy), (ux, uy) = z, w, u
+    c0, c1 = ux * zy - uy * zx, ux * wy - uy * wx
+    length = ux * ux + uy * uy
+    if c1:
+        time = -c0 / c1
+        along = (zx + wx * time) * ux + (zy + wy * time) * uy
+        if along < 0 or along > length:
+            return None
+        return Meeting(time, 0 if along == 0 else 1 if along == length else None)
+    speed = wx * ux + wy * uy
+    if c0 or not speed:
+        return None
+    # It moves along the line of the edge, and enters at the end that it comes to first.
+    end = 0 if speed > 0 else 1
+    return Meeting((end * length - zx * ux - zy * uy) / speed, end)
+
+
+def meeting_of_points(z: Vector, w: Vector) -> Meeting | None:
+    """Return when z + w t = 0; None if never or always."""
+    (zx, zy), (wx, wy) = z, w
+    if zx * wy != zy * wx or not (wx or wy):
+        return None
+    return Meeting(-zx / wx if wx else -zy / wy, 0)
+
+
 def first_incidence(
     a: Straight, b: Straight, span: Span, candidates: Sequence[Candidate]
 ) -> LinearContact | None:
@@ -153,55 +198,19 @@ def first_incidence(
     back = -path[0], -path[1], -path[2], -path[3]
 
     def first(touch: Incidence, until: QQ) -> tuple[QQ, Incidence] | None:
-        one, vertex, _, edge, _ = touch
-        met = (
-            _linear_contact(b, a, back, vertex, edge)
-            if one
-            else _linear_contact(a, b, path, vertex, edge)
-        )
-        if met is None or not span.start < met[0] <= until:
+        moving, still, (cx, cy, wx, wy) = (b, a, back) if touch.body else (a, b, path)
+        i, j = still.edges[touch.edge]
+        (px, py), (qx, qy) = moving.point(touch.vertex), still.point(i)
+        z, w = (px + cx - qx, py + cy - qy), (wx, wy)
+        if i == j:
+            met = meeting_of_points(z, w)
+        else:
+            rx, ry = still.point(j)
+            met = meeting_of_point_and_edge(z, w, (rx - qx, ry - qy))
+        if met is None or not span.start < met.time <= until:
             return None
-        time, end = met
-        return time, touch if end < 0 else touch._replace(edge=-1, other_vertex=end)
+        if met.end is None:
+            return met.time, touch
+        return met.time, touch._replace(edge=-1, other_vertex=(i, j)[met.end])
 
     return earliest(candidates, first, span.end)
-
-
-def _linear_contact(
-    a: Straight, b: Straight, path: tuple[QQ, QQ, QQ, QQ], vertex: int, edge: int
-) -> tuple[QQ, int] | None:
-    """Return when a vertex of a, moving relative to b, first lies on an edge of b: exactly.
-
-    Returns:
-        The time, and the end of the edge at which it is, or -1; None if it never lies on the
-        edge, or always.
-    """
-    cx, cy, wx, wy = path
-    i, j = b.edges[edge]
-    (px, py), (qx, qy) = a.point(vertex), b.point(i)
-    zx, zy = px + cx - qx, py + cy - qy
-    if i == j:
-        return _passing(zx, zy, wx, wy, i)
-    rx, ry = b.point(j)
-    ux, uy = rx - qx, ry - qy
-    c0, c1 = ux * zy - uy * zx, ux * wy - uy * wx
-    length = ux * ux + uy * uy
-    if c1:
-        time = -c0 / c1
-        along = (zx + wx * time) * ux + (zy + wy * time) * uy
-        if along < 0 or along > length:
-            return None
-        return time, i if along == 0 else j if along == length else -1
-    speed = wx * ux + wy * uy
-    if c0 or not speed:
-        return None
-    # It moves along the line of the edge, and enters at the end that it comes to first.
-    target = QQ(0) if speed > 0 else length
-    return (target - zx * ux - zy * uy) / speed, i if speed > 0 else j
-
-
-def _passing(zx: QQ, zy: QQ, wx: QQ, wy: QQ, point: int) -> tuple[QQ, int] | None:
-    """Return the time at which z + w t = 0, with the point there; None if never or always."""
-    if zx * wy != zy * wx or not (wx or wy):
-        return None
-    return (-zx / wx if wx else -zy / wy), point

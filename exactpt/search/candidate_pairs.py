@@ -12,9 +12,10 @@ from exactpt.geometry.boxes import grown, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.motion.slabs import Near, Slab
 from exactpt.motion.swept_edges import SweptEdges
+from exactpt.pair.straight import span_of
 from exactpt.scene.scene import Scene
-from exactpt.search.boxes import PieceBoxes
-from exactpt.search.pieces import ScenePieces, linear_pieces
+from exactpt.search.reading import Rows, straight_rows
+from exactpt.search.sweep_search import SlabsOfAll
 
 FEW: Final = 4
 """Maximum number of bodies of which all pairs are named at once, if none changes its motion."""
@@ -36,17 +37,28 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     if len(bodies) <= FEW and not any(body.exact_breakpoints for body in bodies):
         return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
     found: dict[tuple[int, int], Spans] = {}
-    pieces = linear_pieces(scene)
-    if pieces is not None:
-        boxes = PieceBoxes.of(pieces, enclosing_floats(reach / 2)[1])
-        for _, a, b in ScenePieces(pieces, start, end, boxes).near():
-            pair = min(a.body, b.body), max(a.body, b.body)
-            found.setdefault(pair, []).append((max(a.start, b.start), min(a.end, b.end)))
+    rows = straight_rows(bodies, span_of(start, end), reach / 2)
+    if rows is not None:
+        found = _near_rows(rows)
     else:
         for now, later, (i, j) in _near_slabs(scene, reach):
             for pair in zip(i.tolist(), j.tolist(), strict=True):
                 found.setdefault(pair, []).append((now, later))
     return {pair: sorted(found[pair]) for pair in sorted(found)}
+
+
+def _near_rows(rows: Rows) -> dict[tuple[int, int], Spans]:
+    """Return the pairs of bodies that have rows which come near each other, and when both last."""
+    body, spans = rows.table.body, rows.spans
+    near = {rows for slab in SlabsOfAll(rows) for rows in slab.pairs.rows()}
+    found: dict[tuple[int, int], Spans] = {}
+    for one, two in near:
+        i, j = int(body[one]), int(body[two])
+        start = max(spans[one].start, spans[two].start)
+        end = min(spans[one].end, spans[two].end)
+        if start <= end:  # doubles around two spans may meet where the spans do not
+            found.setdefault((min(i, j), max(i, j)), []).append((start, end))
+    return found
 
 
 def _near_slabs(scene: Scene, reach: QQ) -> Iterator[Slab]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from exactpt.errors import InputError, carrying
 from exactpt.extensions import extension
@@ -13,10 +13,16 @@ from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational, shorten
 from exactpt.motion.tileable import are_tileable
 from exactpt.pair.contact import Contact
+from exactpt.pair.straight import span_of
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
-from exactpt.search.linear import pair_search
 from exactpt.search.query import Selection
+from exactpt.search.reading import straight_rows
+from exactpt.search.sweep_search import Slab, SlabsOfAll, SweepSearch, slab_of_bodies
+
+if TYPE_CHECKING:
+    from exactpt.search.features_sweep import PairsSearch
+    from exactpt.search.selected import SelectedSearch
 
 METHODS: Final = ("kinetic", "pairs", "auto")
 """Names of the methods of `first_contact`."""
@@ -166,7 +172,7 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
     if question.proof is not None:
         return _proved(scene, question, question.proof)
     exact_only, seconds = question.exact_only, question.max_seconds
-    if question.after_start or selection.named is not None:
+    if question.after_start:
         from exactpt.search.selected import SelectedSearch
 
         return SelectedSearch(
@@ -177,7 +183,7 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
             max_seconds=seconds,
         )
     method, tiling = question.method, question.tiling
-    if selection.groups:
+    if not selection.is_all:
         method = "pairs"  # a tiling watches all pairs
     elif question.max_events is not None and method == "auto":
         method = "kinetic" if are_tileable(scene.bodies) else "pairs"
@@ -189,6 +195,40 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
 
     most = question.max_events
     return TilingSearch(scene, tiling, exact_only=exact_only, max_events=most, max_seconds=seconds)
+
+
+def pair_search(
+    scene: Scene,
+    *,
+    exact_only: bool = False,
+    selection: Selection | None = None,
+    max_seconds: float | None = None,
+) -> SweepSearch | PairsSearch | SelectedSearch:
+    """Return the search over pairs: a sweep over rows if all bodies move straight.
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        selection: the pairs that count; by default all but those that the scene ignores.
+        max_seconds: time limit, in seconds; None for no limit.
+    """
+    chosen = Selection(scene) if selection is None else selection
+    span = span_of(scene.exact_start, scene.exact_end)
+    rows = None if exact_only else straight_rows(scene.bodies, span)
+    if rows is not None:
+        slabs: Iterable[Slab] = SlabsOfAll(rows, chosen)
+        if chosen.named is not None:
+            slabs = [slab_of_bodies(rows, chosen.named)]
+        return SweepSearch(scene, rows, slabs, max_seconds)
+    if chosen.named is not None:
+        from exactpt.search.selected import SelectedSearch
+
+        return SelectedSearch(
+            scene, selection=chosen, exact_only=exact_only, max_seconds=max_seconds
+        )
+    from exactpt.search.features_sweep import PairsSearch
+
+    return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, selection=chosen)
 
 
 def _certified(scene: Scene, question: ContactQuery) -> Search:

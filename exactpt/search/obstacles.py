@@ -7,17 +7,19 @@ from itertools import groupby, pairwise
 from typing import Final, NamedTuple, final
 
 import numpy as np
+from librt.vecs import vec
 
 from exactpt.kernel.doubles import Flags, Floats
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.normalization import Normalization, normalization_for
-from exactpt.motion.outline import far_origin
 from exactpt.motion.swept import NO_DRIFT, SweptBoxes
+from exactpt.pair.straight import span_of
 from exactpt.scene.scene import Scene
-from exactpt.search.boxes import PieceBoxes
-from exactpt.search.pieces import MotionPiece, linear_pieces
+from exactpt.search.reading import Rows, straight_rows
+from exactpt.search.sweep import boxes_during, pairs_with_others
+from exactpt.search.sweep_search import Slab
 
 SLABS: Final = 64
 """Number of slabs of time, of equal length."""
@@ -91,34 +93,28 @@ class Obstacles:
     Args:
         scene: the obstacles and the span.
 
-    Attributes:
-        pieces: their linear motion pieces; None if one of them moves otherwise.
-        origin: the origin of their doubles (`far_origin`).
     """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self.origin = far_origin(scene.bodies)
-        self.pieces: list[MotionPiece] | None = linear_pieces(scene)
-        self._piece_boxes = None if self.pieces is None else PieceBoxes.of(self.pieces)
+        self._rows = straight_rows(scene.bodies, span_of(scene.exact_start, scene.exact_end))
+        self._boxes: vec[float] | None = None
         self._slab_boxes: SlabBoxes | None = None
 
-    def near(self, pieces: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
-        """Return the obstacles' pieces whose boxes intersect those of some pieces.
+    def with_body(self, body: Body) -> tuple[Rows, Slab] | None:
+        """Return the rows of the obstacles and of a body, and the pairs that may touch.
 
-        They are numbered after all obstacles' pieces.
-
-        Each pair comes with a time before which they do not; in the order of these times.
+        None unless all of them move straight.
         """
-        if self._piece_boxes is None or not self._piece_boxes:
-            return []
-        n, m = len(self._piece_boxes), len(pieces)
-        boxes = self._piece_boxes.joined(PieceBoxes.of(pieces))
-        i, j = np.tile(np.arange(n), m), np.repeat(np.arange(n, n + m), n)
-        enter, leave = boxes.windows(i, j, -np.inf, np.inf)
-        meet = np.nonzero(enter <= leave)[0]
-        meet = meet[np.argsort(enter[meet], kind="stable")]
-        return list(zip(enter[meet].tolist(), i[meet].tolist(), j[meet].tolist(), strict=True))
+        if self._rows is None:
+            return None
+        rows = self._rows.with_body(body)
+        if rows is None:
+            return None
+        low, high = rows.span.low, rows.span.high
+        if self._boxes is None:
+            self._boxes = boxes_during(self._rows.table, low, high)
+        return rows, Slab(low, high, pairs_with_others(rows.table, self._boxes, low, high))
 
     def active_intervals(self, body: Body) -> Iterator[ActiveInterval]:
         """Return the times during which a body is near obstacles, in order."""

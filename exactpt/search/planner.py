@@ -10,15 +10,14 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import Rational, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pieces
+from exactpt.motion.outline import is_rigid
 from exactpt.motion.shape import VertexLike
 from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.search.features_sweep import PairsSearch
-from exactpt.search.linear import LinearSearch
 from exactpt.search.obstacles import ActiveInterval, Obstacles
-from exactpt.search.pieces import ScenePieces, pieces_during
 from exactpt.search.query import Selection
+from exactpt.search.sweep_search import SweepSearch
 
 NAME: Final = "shape"
 """The name of a shape that is given by its vertices."""
@@ -86,23 +85,18 @@ class Planner:
         at_rest = given.with_errors()  # they are about a pivot that the motions need not have
         if any(body.name == at_rest.name for body in self._scene.bodies):
             raise InputError(f"body {shorten(at_rest.name)}: the name is taken by an obstacle")
-        outline = rest_outline(at_rest)
         if not isinstance(motions, Iterable):
             raise InputError(f"motions: a list of them is needed, not {shorten(motions)}")
-        return [self._first(at_rest.with_motion(motion), outline) for motion in motions]
+        return [self._first(at_rest.with_motion(motion)) for motion in motions]
 
-    def _first(self, body: Body, outline: Outline | None) -> Contact | None:
-        scene, prepared = self._scene, self._obstacles.pieces
+    def _first(self, body: Body) -> Contact | None:
+        scene = self._scene
         Scene([body], (scene.start, scene.end))
-        if prepared is not None and outline is not None:
-            pieces = straight_pieces(body, outline, self._obstacles.origin)
-            if pieces is not None:
-                number = len(scene.bodies)
-                moving = list(pieces_during(number, pieces, scene.exact_start, scene.exact_end))
-                together, near = [*prepared, *moving], self._obstacles.near(moving)
-                planned = scene.going_on((*scene.bodies, body), scene.exact_start)
-                few = ScenePieces(together, scene.exact_start, scene.exact_end, near)
-                return LinearSearch(planned, few).run_to_contact()
+        prepared = self._obstacles.with_body(body)
+        if prepared is not None:
+            rows, near = prepared
+            planned = scene.going_on((*scene.bodies, body), scene.exact_start)
+            return SweepSearch(planned, rows, [near]).run_to_contact()
         if scene.has_radius or body.exact_radius or not is_rigid(body):  # boxes are those of cores
             whole = ActiveInterval(
                 scene.exact_start, scene.exact_end, list(range(len(scene.bodies)))

@@ -20,14 +20,14 @@ from exactpt.motion.outline import may_touch_itself
 from exactpt.motion.track import Incidence, renumbered
 from exactpt.pair.contact import Contact, contact_of
 from exactpt.pair.start import initial_touches, touches_at_distance
-from exactpt.pair.straight import Earliest
+from exactpt.pair.straight import Earliest, span_of
 from exactpt.scene.scene import Scene, scene_of
 from exactpt.search.candidate_pairs import candidate_pairs
 from exactpt.search.features_sweep import PairsSearch
-from exactpt.search.linear import first_among_pieces
 from exactpt.search.new import new_contact_time
-from exactpt.search.pieces import MotionPiece, ScenePieces, linear_pieces
 from exactpt.search.query import Selection
+from exactpt.search.reading import straight_rows
+from exactpt.search.sweep_search import first_of_two
 
 Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Incidence]]"
 
@@ -50,6 +50,7 @@ class SelectedSearch:
     """
 
     name = None
+    lacks_boxes = False
 
     def __init__(
         self,
@@ -65,7 +66,6 @@ class SelectedSearch:
         self._selection = Selection(scene) if selection is None else selection
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._pieces: dict[int, list[MotionPiece]] | None = None
         self.pairs = 0
 
     @property
@@ -101,7 +101,6 @@ class SelectedSearch:
         touches, initial_pairs = initial_touches(scene, pairs)
         if initial_pairs and not self._after_start:
             return contact_of(scene, start, touches, initial_pairs)
-        self._read_pieces()
         touching = set(initial_pairs)
         best: Earliest[tuple[tuple[int, ...], Iterable[Incidence]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
@@ -130,13 +129,6 @@ class SelectedSearch:
             return []
         return [i for i, body in enumerate(self._scene.bodies) if may_touch_itself(body)]
 
-    def _read_pieces(self) -> None:
-        pieces = None if self._exact_only else linear_pieces(self._scene)
-        if pieces is not None:
-            self._pieces = {i: [] for i in range(len(self._scene.bodies))}
-            for piece in pieces:
-                self._pieces[piece.body].append(piece)
-
     def _renewed(self, i: int, j: int) -> Meeting | None:
         """Return the first new contact of two bodies that touch at the start.
 
@@ -161,11 +153,13 @@ class SelectedSearch:
         scene = self._scene
         if until <= scene.exact_start:
             return None
-        if self._pieces is not None:
-            pieces = [piece for i in pair for piece in self._pieces[i]]
-            met = first_among_pieces(ScenePieces.of(pieces, scene.exact_start, until))
-            return None if met is None else (met.number, met.touches)
-        part = scene_of([scene.bodies[i] for i in pair], scene.exact_start, until)
+        bodies = [scene.bodies[i] for i in pair]
+        if len(pair) > 1 and not self._exact_only:
+            rows = straight_rows(bodies, span_of(scene.exact_start, until))
+            if rows is not None:
+                met = first_of_two(rows)
+                return None if met is None else (met.number, renumbered(met.touches, *pair))
+        part = scene_of(bodies, scene.exact_start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []
         search = PairsSearch(part, exact_only=self._exact_only, ignoring_self=alone)
         contact = search.run_to_contact()

@@ -11,20 +11,20 @@ import numpy as np
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, rational, show
+from exactpt.kernel.numbers import QQ, Rational, rational, show
 from exactpt.kernel.square_root import exact_square_root, root_above
 from exactpt.motion.body import Body
 from exactpt.pair.distance import squared_distance
 from exactpt.pair.pieces_of_two import two_bodies
 from exactpt.pair.start import near_at_start, within_at_start
-from exactpt.pair.straight import Earliest
+from exactpt.pair.straight import Earliest, span_of
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene, scene_of
 from exactpt.search.approach_search import ApproachSearch
 from exactpt.search.candidate_pairs import candidate_pairs
-from exactpt.search.linear import first_among_pieces, scene_pieces_if_linear
-from exactpt.search.pieces import ContactDistance, MotionPiece
 from exactpt.search.query import Selection
+from exactpt.search.reading import straight_rows
+from exactpt.search.sweep_search import SlabsOfAll, Sweep
 
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
 """The time of an approach, and the indices i < j of the bodies that are within the distance."""
@@ -211,23 +211,21 @@ def _first(scene: Scene, squared: QQ) -> Near | None:
     def limit(i: int, j: int) -> QQ:
         return square_between_cores(squared, radii[i] + radii[j])
 
-    def distance(a: MotionPiece, b: MotionPiece) -> ContactDistance | None:
-        root = most + radii[a.body] + radii[b.body]
-        return ContactDistance.of(limit(a.body, b.body), root) if root else None
-
+    rows = straight_rows(scene.bodies, span_of(scene.exact_start, scene.exact_end), most / 2)
+    sweep = None if rows is None else Sweep(rows, SlabsOfAll(rows), limit)
     reach = [most / 2 + r for r in radii]
-    pieces = scene_pieces_if_linear(scene, enclosing_floats(most / 2)[1])
-    if pieces is None:
-        near: Iterable[tuple[int, int]] = near_at_start(scene, reach, np.not_equal)
+    near: Iterable[tuple[int, int]]
+    if sweep is None:
+        near = near_at_start(scene, reach, np.not_equal)
     else:
-        near = pieces.near_at_start(distance)
+        near = sweep.near_at_start()
     at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
     if at_start:
         return AlgebraicNumber(scene.exact_start), at_start
-    if pieces is None:
+    if sweep is None:
         found = ApproachSearch(scene, limit, reach).run()
     else:
-        found = first_among_pieces(pieces, distance)
+        found = sweep.first_after_start()
     if found is None:
         return None
     return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]

@@ -25,7 +25,7 @@ from fuzz.laws import kept
 from fuzz.questions.batched import touching_while_turning
 from fuzz.questions.convoys import convoy
 from fuzz.questions.crossed import crossed_pair
-from fuzz.questions.pieces import planks, walkers
+from fuzz.questions.pieces import planks, sliders, walkers
 from fuzz.questions.pockets import pocket_scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scaled import scaled_pair, wheels
@@ -181,6 +181,7 @@ SOURCES: Final[dict[str, Source]] = {
     "far/arc": arc_scene,
     "pockets": pocket_scene,
     "tiny/corners": corner_scene,
+    "tiny/sliders": sliders,
     "far/convoy": convoy,
     "spinning": spinning_scene,
     "poses": path_scene,

@@ -42,7 +42,7 @@ class Lines(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """A function has another text, of which one part is replaced.
+    """A function, or the one of a property, has another text, of which one part is replaced.
 
     The code of the function is exchanged, not the function: whoever has imported it by name makes
     the mistake too. A text outlives renumbered lines and renamed modules.
@@ -59,8 +59,7 @@ class Edit:
     new: str
 
     def _function(self) -> FunctionType:
-        function: FunctionType = inspect.unwrap(getattr(self.owner, self.name))
-        return function
+        return _function(getattr(self.owner, self.name))
 
     def _text(self) -> str:
         """Return the text of the function.
@@ -94,7 +93,7 @@ class Edit:
         exec(compile(tree, f"<{self.name}, planted>", "exec"), right.__globals__, made)
         code = right.__code__
         right.__globals__[NAME] = PROBE
-        right.__code__ = inspect.unwrap(made[self.name]).__code__
+        right.__code__ = _function(made[self.name]).__code__
         try:
             yield
         finally:
@@ -129,6 +128,14 @@ class Replacement:
         wrong = probed(self.make(getattr(self.owner, self.name)))
         replaced: AbstractContextManager[object] = patch.object(self.owner, self.name, wrong)
         return replaced
+
+
+def _function(found: Function | property) -> FunctionType:
+    """Return a function without its decorators, or the one that gets a property."""
+    getter = found.fget if isinstance(found, property) else found
+    assert getter is not None  # noqa: S101 - a property without it has no text
+    function: FunctionType = inspect.unwrap(getter)
+    return function
 
 
 def _file_of(function: FunctionType) -> str:

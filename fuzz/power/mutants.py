@@ -43,7 +43,7 @@ class Mutant(NamedTuple):
 
     Attributes:
         name: the function, the number of the place in it, and the change, as in
-            "exactpt.search.boxes.joined[2]: a < b -> a <= b".
+            "exactpt.geometry.boxes.joined[2]: a < b -> a <= b".
         lines: the changed lines, from the beginning of their statement on.
         make: changes the function in this process.
     """

@@ -13,7 +13,7 @@ from typing import Final
 
 from exactpt import Body, Pieces, Rigid, Scene, Translation
 
-__all__ = ["planks", "walkers"]
+__all__ = ["planks", "sliders", "walkers"]
 
 PIECES: Final = 20
 """Number of pieces of the motion of a walker."""
@@ -43,6 +43,33 @@ def _walker(name: str, random: Random) -> Body:
         x, y, now = x + u * (until - now), y + v * (until - now), until
     pieces.append((None, Translation([x], [y])))
     return Body(name, [(0, 0), (2, 0), (2, 1), (0, 1)], Pieces(pieces))
+
+
+def sliders(random: Random) -> Scene:
+    """Return a chain that slides along its own line, in doubles, towards the end of another one.
+
+    It may turn back before, at or after that end. A point comes to a post at some time, and others
+    fly past. So a vertex and an edge are in line all the time, and a formula is wrong later.
+    """
+    dx, dy = random.choice([(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)])
+    place = float(random.choice([5, 5, 20, 40]))
+    there, back = Translation([0.0, dx], [0.0, dy]), random.randint(1, 3)
+    motion: Translation | Pieces = there
+    if random.random() < 0.5:
+        again = Translation([2.0 * back * dx, -dx], [2.0 * back * dy, -dy])
+        motion = Pieces([(back, there), (None, again)])
+    line = [(k * dx, k * dy) for k in range(3)]
+    around = [(place * dx, place * dy), (place * dx + 1.0, 0.0), (1.0, -1.0)]
+    bodies = [
+        Body("slider", line, motion, closed=False),
+        Body("corner", around, closed=False),
+        Body("point", [(-10.0 - random.randint(1, 20), 0.0)], Translation([0.0, 1.0])),
+        Body("post", [(-10.0, -1.0), (-10.0, 1.0)], closed=False),
+    ]
+    for k in range(random.choice([0, 4])):
+        x, speed = random.choice([(-50.0, -9.0), (90.0, 9.0)])
+        bodies.append(Body(f"far {k}", [(x, float(k))], Translation([0.0, speed])))
+    return Scene(bodies, time=(0, random.choice([3, 100, 100])))
 
 
 def planks(random: Random) -> Scene:

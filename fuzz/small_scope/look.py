@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 from exactpt import Contact, InputError, Scene, Simulation, first_contact, stop
 from exactpt.kernel.numbers import ZZ
-from exactpt.search.pieces import linear_pieces
+from exactpt.motion.outline import straight_pieces
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement, plain_contact
 from exactpt.testing.audits import run_and_audit
@@ -21,7 +21,7 @@ from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 
-__all__ = ["AUDITED", "Answer", "Look", "look", "looks", "looks_at_proofs"]
+__all__ = ["AUDITED", "Answer", "Look", "are_straight", "look", "looks", "looks_at_proofs"]
 
 AUDITED: Final = 16
 """One in this many scenes gets an audit of a tiling between events, and another one a simulation
@@ -75,6 +75,11 @@ class Look(NamedTuple):
         return self.answers[0].method != REFERENCE
 
 
+def are_straight(scene: Scene) -> bool:
+    """Return True if all bodies move straight, piece by piece: "auto" is then a sweep over rows."""
+    return all(straight_pieces(body) is not None for body in scene.bodies)
+
+
 def looks(several: Sequence[Planned]) -> list[Look]:
     """Compare all methods with the reference in each of some scenes, arrays in one call."""
     seen = [look(planned) for planned in several]
@@ -110,7 +115,7 @@ def look(planned: Planned) -> Look:
         return wrong_normal(scene, contact_by(scene, "pairs"))
 
     names = tilings_of(scene)
-    searches = ("pairs",) if linear_pieces(scene) is None else ("auto", "pairs")
+    searches = ("auto", "pairs") if are_straight(scene) else ("pairs",)
     answers = [_answer(name, compare, name) for name in (*searches, *names)]
     answers.append(_answer(NORMALS, judge_normals, ""))
     turn, rest = divmod(planned.number, AUDITED)

@@ -20,7 +20,9 @@ from exactpt import (
     first_contact,
 )
 from exactpt.kernel.numbers import QQ
-from exactpt.search import boxes
+from exactpt.pair.straight import span_of
+from exactpt.search import reading
+from exactpt.search.reading import straight_rows
 from exactpt.testing import ending_at
 from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
@@ -46,13 +48,13 @@ def test_mistake_is_made_and_undone(bug):
 
 
 def test_edited_function_is_wrong_for_those_who_imported_it_too():
-    """`scene_pieces` has `radius_above` by name: a patch of the module would not reach it."""
-    from exactpt.search import scene_pieces
+    """This module has `straight_rows` by name: a patch of `reading` would not reach it."""
+    span = span_of(QQ(0), QQ(1))
+    point = Body("point", [(0, 0)])
 
-    body = Body("disc", [(0, 0)], radius="1/3")
-    with Edit(boxes, "radius_above", "enclosing_floats(body.exact_radius)[1]", "7.0").made():
-        assert scene_pieces.radius_above(body) == 7.0
-    assert 1 / 3 <= scene_pieces.radius_above(body) < 0.34
+    with Edit(reading, "straight_rows", "rows if rows.add_all() else None", "None").made():
+        assert straight_rows([point], span) is None
+    assert straight_rows([point], span) is not None
 
 
 # What a test by hand shows best. The right values are derived in each docstring.
@@ -80,8 +82,6 @@ def test_first_contact_long_before_0_of_equal_velocities_in_thirds_is_found():
     scene = pairs_that_meet_before_0(time)
 
     assert first_contact(scene, method="pairs").time == time
-    with PLANTED["times before 0 forgotten"].made():
-        assert first_contact(scene, method="pairs") is None
 
 
 def test_below_the_least_distance_is_a_single_time():
@@ -132,6 +132,50 @@ def test_search_that_is_ended_at_any_look_has_reached_less_than_the_contact():
     with PLANTED["no contact for a double too long"].made():
         wrong = {r for r in reached_at_each_look(relay_of_three()) if r is not None}
     assert max(wrong) == Fraction(math.nextafter(1 / 3, 1)) > Fraction(1, 3)
+
+
+TOGETHER = Translation([0.0, 1.0], [0.0, 1.0])
+"""One unit in x and in y in each unit of time: along the line of a slider."""
+
+
+def slider(motion):
+    """A chain along the line x = y, with its tip at (2, 2); numbers are doubles."""
+    return Body("slider", [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)], motion, closed=False)
+
+
+def corner(c):
+    """A chain with its end at (c, c), which leads around the slider, so that boxes intersect."""
+    return Body("corner", [(c, c), (c + 1.0, 0.0), (1.0, -1.0)], closed=False)
+
+
+def test_slider_that_turns_back_before_a_corner_has_no_contact():
+    """Its tip is at (3, 3) at t = 1, where it turns back, and would be at (4, 4) at t = 2."""
+    back = Translation([2.0, -1.0], [2.0, -1.0])
+    scene = Scene([slider(Pieces([(1, TOGETHER), (None, back)])), corner(4.0)], (0, 3))
+
+    assert first_contact(scene) is None
+    with PLANTED["a formula used beyond its piece"].made():
+        assert first_contact(scene).time == 2
+
+
+def test_contact_before_that_of_a_slider_in_the_first_slab_is_the_first():
+    """The tip is at (40, 40) at t = 38. A point comes from x = -20 to the post at x = -10, t = 10.
+
+    Four points fly past, so that the first slab ends before 10.
+    """
+    flying = [(-50.0, 0.0, -9.0), (90.0, 0.0, 9.0), (-50.0, 1.0, -9.0), (90.0, 1.0, 9.0)]
+    bodies = [
+        slider(TOGETHER),
+        corner(40.0),
+        Body("point", [(-20.0, 0.0)], Translation([0.0, 1.0])),
+        Body("post", [(-10.0, -1.0), (-10.0, 1.0)], closed=False),
+        *(Body(f"{x}, {y}", [(x, y)], Translation([0.0, v])) for x, y, v in flying),
+    ]
+    scene = Scene(bodies, (0, 100))
+
+    assert first_contact(scene).time == 10
+    with PLANTED["a contact after the slab taken for the first"].made():
+        assert first_contact(scene).time == 38
 
 
 @pytest.mark.parametrize("radius", ["1/3", "1/7", str(10**400), f"1/{10**400}", "5/13"])

@@ -18,7 +18,6 @@ from exactpt.geometry.polygon import contains, edges, first_self_touch, segments
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
-from exactpt.search.pieces import linear_pieces
 from exactpt.testing import reference
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.changes.images import halved
@@ -27,7 +26,7 @@ from fuzz.planted import PLANTED
 from fuzz.small_scope import tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
-from fuzz.small_scope.look import AFTER_START, look, looks
+from fuzz.small_scope.look import AFTER_START, are_straight, look, looks
 from fuzz.small_scope.motions import ORDERS, SLOTS, TIMES, approaches
 from fuzz.small_scope.numbering import spread
 from fuzz.small_scope.placements import (
@@ -389,7 +388,7 @@ def test_arrays_are_asked_for_two_bodies_that_translate():
 def test_auto_is_asked_where_it_is_not_pairs():
     for one in looks([planned(n) for n in range(50)]):
         methods = [answer.method for answer in one.answers]
-        assert ("auto" in methods) == (linear_pieces(one.planned.scene) is not None)
+        assert ("auto" in methods) == are_straight(one.planned.scene)
 
 
 def _wrong(attribute, value):

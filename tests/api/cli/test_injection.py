@@ -129,7 +129,7 @@ def test_a_bug_is_told_without_raw_names(folder, capsys, monkeypatch, name):
     def broken(_):
         raise ZeroDivisionError(f"with {name}")
 
-    monkeypatch.setattr("exactpt.search.linear.LinearSearch.run_to_contact", broken)
+    monkeypatch.setattr("exactpt.search.sweep_search.SweepSearch.run_to_contact", broken)
     monkeypatch.setattr("tempfile.tempdir", str(folder))
 
     assert code_of("collide", "scene.json") == 3

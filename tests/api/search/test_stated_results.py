@@ -10,7 +10,7 @@ from exactpt import Body, Rigid, Scene, Simulation, Translation, first_contact
 from exactpt.cli.runs import collide
 from exactpt.motion import swept_edges
 from exactpt.search import features_sweep as pairs
-from exactpt.search import linear as linear_search
+from exactpt.search.first import pair_search
 
 
 def test_a_gap_of_a_hair_is_a_gap():
@@ -97,11 +97,12 @@ def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
     assert not sum(met)
 
 
-def test_in_a_convoy_no_two_bodies_are_compared(monkeypatch):
-    compared = []
-    monkeypatch.setattr(linear_search, "candidates_of", lambda *_: compared.append(1))
-    assert first_contact(convoy(1000)) is None
-    assert not compared
+def test_in_a_convoy_no_two_bodies_are_compared():
+    """Bodies are 4 apart and up to 3 wide, and keep their distances: boxes do not meet."""
+    search = pair_search(convoy(1000))
+
+    assert search.run_to_contact() is None
+    assert search.stats["pairs"] == 0
 
 
 def test_auto_is_the_default_of_first_contact_and_collide():

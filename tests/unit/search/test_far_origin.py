@@ -7,7 +7,7 @@ import pytest
 
 from exactpt import Body, Pieces, Planner, Scene, Translation, first_contact, first_within
 from exactpt.motion.outline import far_origin
-from exactpt.search.linear import LinearSearch, scene_pieces_if_linear
+from exactpt.search.first import pair_search
 
 
 def crowd(offset, seed, radius):
@@ -44,7 +44,7 @@ def test_answers_do_not_depend_on_an_offset(seed, radius):
 def test_filters_decide_as_much_at_an_offset(offset):
     counts = []
     for scene in (crowd(Fraction(1, 3), 1, 0), crowd(offset + Fraction(1, 3), 1, 0)):
-        search = LinearSearch(scene, scene_pieces_if_linear(scene))
+        search = pair_search(scene)
         search.run_to_contact()
         counts.append((search.stats["exact"], search.stats["filtered"]))
     assert counts[0][0] == counts[1][0]

@@ -117,7 +117,7 @@ def grid(count):
 def test_obstacles_are_validated_and_prepared_once(monkeypatch):
     """For a hundred plans each obstacle is looked at once; the shape, once for each plan."""
     checked, read, boxed = [], [], []
-    outline_at, linear_pieces = planners.Scene, prepared.linear_pieces
+    outline_at, straight_rows = planners.Scene, prepared.straight_rows
 
     def validated(bodies, time):
         checked.extend(bodies := list(bodies))
@@ -125,7 +125,7 @@ def test_obstacles_are_validated_and_prepared_once(monkeypatch):
 
     monkeypatch.setattr(planners, "Scene", validated)
     monkeypatch.setattr(
-        prepared, "linear_pieces", lambda scene: read.append(1) or linear_pieces(scene)
+        prepared, "straight_rows", lambda *given: read.append(1) or straight_rows(*given)
     )
     slab_boxes = prepared.SlabBoxes
     monkeypatch.setattr(prepared, "SlabBoxes", lambda *a: boxed.append(1) or slab_boxes(*a))
@@ -141,23 +141,23 @@ def test_obstacles_are_validated_and_prepared_once(monkeypatch):
 
 def test_a_plan_looks_at_the_obstacles_near_it_alone(monkeypatch):
     """A shape passes along the lowest row of a grid of 30: at most six obstacles are compared."""
-    compared, searched = [], []
-    scene_pieces, search = planners.ScenePieces, planners.PairsSearch
+    sweeps, searched = [], []
+    sweep, search = planners.SweepSearch, planners.PairsSearch
 
-    def recorded(rows, start, end, pairs):
-        compared.extend(rows[i].body for _, i, _ in pairs)
-        return scene_pieces(rows, start, end, pairs)
+    def sweeping(*given):
+        sweeps.append(sweep(*given))
+        return sweeps[-1]
 
     def searching(scene, **options):
         searched.extend(body.name for body in scene.bodies)
         return search(scene, **options)
 
-    monkeypatch.setattr(planners, "ScenePieces", recorded)
+    monkeypatch.setattr(planners, "SweepSearch", sweeping)
     monkeypatch.setattr(planners, "PairsSearch", searching)
     planner = Planner(grid(30), (0, 10))
     shape = [(-9, "1/2"), (-8, "1/2"), (-8, 3)]
     assert planner.first_contact(shape, Translation([0, 8])).time == 1
-    assert set(compared) <= set(range(6))
+    assert 1 <= sweeps[0].stats["pairs"] <= 6
     assert planner.first_contact(shape, Translation([0, 8, 1])) is not None
     assert set(searched) <= {f"o{i}" for i in range(6)} | {"shape"}
     assert planner.first_contact(shape, Translation([0, -1], [0, 0, 1])) is None

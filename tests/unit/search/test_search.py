@@ -12,7 +12,6 @@ from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first
 from exactpt.kernel.numbers import QQ
 from exactpt.pair.features import FeaturePair
 from exactpt.pair.start import near_at_start, within_at_start
-from exactpt.search import pieces
 from exactpt.search.approach_search import ApproachSearch
 from exactpt.testing import reference
 from exactpt.testing.scenes import FAMILIES, generate
@@ -120,14 +119,13 @@ def test_first_approach_is_the_least_of_all_pairs(seed):
     assert found == (None if least is None else Approach(least, nearest))
 
 
-@pytest.mark.parametrize("few", [1, 10_000])
-def test_first_approach_with_and_without_boxes_of_pieces(few, monkeypatch):
-    """A crowd, and two pairs that come within the distance at the same time as another one."""
-    scene = crowd(40, Random(few % 7), radius=100, end=4)
+@pytest.mark.parametrize("seed", [1, 4])
+def test_first_approach_of_three_pairs_at_once_beside_a_crowd(seed):
+    """Three pairs, 40 apart at 300 a unit of time, are 10 apart at t = 30 / 300."""
+    scene = crowd(40, Random(seed), radius=100, end=4)
     far = [Body(f"far{i}", [(9000 + 50 * i, y)]) for i in range(3) for y in (0,)]
     close = [Body(f"near{i}", [(9000 + 50 * i, 40)], Translation([0], [0, -300])) for i in range(3)]
     both = Scene([*scene.bodies, *far, *close], (0, 4))
-    monkeypatch.setattr(pieces, "FEW", few)
 
     found = first_within(both, distance=10)
 

@@ -1,23 +1,21 @@
-"""Bodies that move straight: the answer of the search over features, byte for byte."""
+"""Bodies that move straight: contacts close to degeneracy, and how few pairs are compared."""
 
 import json
 import math
+import sys
+from itertools import product
 from random import Random
 
 import pytest
 
-from exactpt import Body, Contact, Pieces, Rigid, Scene, Translation, first_contact
+from exactpt import Body, Contact, Pieces, Scene, Translation, first_contact
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.outline import far_origin
 from exactpt.pair import incidences
-from exactpt.search import boxes as piece_boxes
-from exactpt.search import linear as linear_search
-from exactpt.search import pieces
 from exactpt.search.features_sweep import PairsSearch
-from exactpt.search.pieces import linear_pieces
+from exactpt.search.first import pair_search
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement
-from exactpt.testing.scenes import FAMILIES, POINTS, generate
+from exactpt.testing.scenes import generate
 
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]
 
@@ -26,21 +24,19 @@ def summary(contact):
     return None if contact is None else json.dumps(contact.to_json())
 
 
-@pytest.mark.parametrize("few", [0, 10**6], ids=["boxes", "all pairs of rows"])
-@pytest.mark.parametrize("family", sorted({**FAMILIES, **POINTS}))
-def test_families(family, few, monkeypatch):
-    for module in (pieces, linear_search):
-        monkeypatch.setattr(module, "FEW", few)
-    for seed in range(3):
-        scene = generate(family, seed)
-        if linear_pieces(scene) is not None:
-            assert summary(first_contact(scene)) == summary(PairsSearch(scene).run_to_contact())
+@pytest.mark.parametrize(
+    "family, is_swept",
+    [
+        ("convex", True), ("row", True), ("pieces", True), ("stars", True), ("combs", True),
+        ("linear_points", True),
+        ("turning", False), ("deforming", False), ("ballistic", False), ("blobs", False),
+    ],
+)  # fmt: skip
+def test_search_sweeps_rows_if_all_bodies_move_straight(family, is_swept):
+    """Translations of degree 1, in pieces or not, are swept; scenes of other motions are not."""
+    counts, _ = counts_of(generate(family, 0))
 
-
-def test_some_families_are_searched_by_rows_and_others_are_not():
-    by_rows = {f for f in {**FAMILIES, **POINTS} if linear_pieces(generate(f, 0)) is not None}
-    assert {"convex", "row", "pieces", "stars", "combs", "linear_points"} <= by_rows
-    assert not {"turning", "deforming", "ballistic", "blobs"} & by_rows
+    assert ("slabs" in counts) == is_swept
 
 
 def odd(rng, x):
@@ -88,14 +84,10 @@ def scenes(count, name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("few", [0, 10**6])
 @pytest.mark.parametrize("count", [150, pytest.param(5000, marks=pytest.mark.slow)])
-def test_close_to_degeneracy(few, count, monkeypatch):
-    for module in (pieces, linear_search):
-        monkeypatch.setattr(module, "FEW", few)
+def test_contact_close_to_degeneracy_is_as_defined(count):
     kinds = set()
-    for scene in scenes(count, f"close {few}"):
-        assert linear_pieces(scene) is not None
+    for scene in scenes(count, "close"):
         expected = reference.first_contact(scene)
         contact = first_contact(scene)
         assert disagreement(expected, contact) is None
@@ -163,11 +155,8 @@ def touching_at_ends(rng, *, in_doubles, far):
 @pytest.mark.long
 @pytest.mark.parametrize("in_doubles", [True, False])
 @pytest.mark.parametrize("far", [0, 1000])
-@pytest.mark.parametrize("few", [0, 10**6])
-def test_rounding_misses_no_end_that_is_touched(in_doubles, far, few, monkeypatch):
+def test_rounding_misses_no_end_that_is_touched(in_doubles, far):
     """At the end of an edge, or between two points, a filter without bounds misses contacts."""
-    for module in (pieces, linear_search):
-        monkeypatch.setattr(module, "FEW", few)
     rng = Random(f"ends {in_doubles} {far}")
     asked = 0
     while asked < 250:
@@ -260,10 +249,19 @@ def test_an_irrational_time_has_its_polynomial_whenever_it_is_asked():
     assert repr(again) == repr(contact)
 
 
-def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
-    """20 bodies of 100 pieces that keep away from each other: hardly two rows are compared."""
-    compared = []
-    monkeypatch.setattr(linear_search, "candidates_of", lambda *_: compared.append(1))
+def counts_of(scene):
+    """Return the counts of the whole search in a scene, and its contact."""
+    search = pair_search(scene)
+    contact = search.run_to_contact()
+    return search.stats, contact
+
+
+def test_bodies_in_many_pieces_that_keep_apart_have_few_pairs_compared():
+    """20 bodies of 100 pieces keep apart: |x| <= 2 + 3 / 5, and they are 8 from each other.
+
+    So the boxes of two bodies, of all their pieces, do not meet; of 1.9 million pairs of pieces
+    hardly one is compared.
+    """
     rng = Random(5)
     bodies = []
     for i in range(20):
@@ -276,50 +274,65 @@ def test_many_pieces_are_compared_where_bodies_come_near(monkeypatch):
             since, x = until, x + speed * (until - since)
         pieces.append((None, Translation([x], [0])))
         bodies.append(Body(f"b{i}", [(9 * i, 0), (9 * i + 1, 0), (9 * i, 1)], Pieces(pieces)))
-    assert first_contact(Scene(bodies, (0, 10))) is None
-    assert len(compared) < 20
+
+    counts, contact = counts_of(Scene(bodies, (0, 10)))
+
+    assert contact is None
+    assert counts["pairs"] < 20
 
 
-def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
-    compared = []
-    candidates_of = linear_search.candidates_of
+def test_pairs_that_come_near_after_the_first_contact_are_not_compared():
+    """Pair i meets at t = 4 + i: the tip (1 + t, 9 i + 1/2) comes to an edge at x = 5 + i.
 
-    def recorded(a, b, *rest):
-        compared.append((a, b))
-        return candidates_of(a, b, *rest)
-
-    monkeypatch.setattr(linear_search, "candidates_of", recorded)
+    It is a vertex on the inside of an edge, which a filter knows for certain. So pairs whose boxes
+    meet later are left out: a box of pair i meets the other one when they touch.
+    """
     bodies = []
     for i in range(40):
         bodies += [
-            Body(f"a{i}", [(0, 9 * i), (1, 9 * i), (0, 9 * i + 1)], Translation([0, 1])),
+            Body(f"a{i}", [(0, 9 * i), (1, 9 * i + 0.5), (0, 9 * i + 1)], Translation([0, 1])),
             Body(f"b{i}", [(5 + i, 9 * i), (6 + i, 9 * i), (5 + i, 9 * i + 1)]),
         ]
-    assert first_contact(Scene(bodies, (0, 100))).time == 4
-    assert len(compared) < 8
+
+    counts, contact = counts_of(Scene(bodies, (0, 100)))
+
+    assert contact.time == 4
+    assert counts["pairs"] < 8
 
 
-def test_boxes_of_pieces_contain_their_bodies():
-    rng = Random("pieces")
-    for _ in range(60):
-        scene = next(scenes(1, rng.random()))
-        moving = linear_pieces(scene)
-        origin = far_origin(scene.bodies) or (0, 0)
-        boxes = piece_boxes.PieceBoxes.of(moving)
-        low = rng.uniform(0, float(scene.end) / 2)
-        high = low + rng.uniform(0, float(scene.end) / 2)
-        active, places = boxes.during(low, high)
-        for k, (left, right, down, up) in zip(active.tolist(), places.tolist(), strict=True):
-            piece = moving[k]
-            for share in (0, QQ(1, 3), 1):
-                t = QQ(low) + share * (QQ(high) - QQ(low))
-                if piece.start <= t <= piece.end:
-                    drift = [QQ(float(d)) * t for d in boxes.drift]
-                    for x, y in scene.bodies[piece.body].at(t):
-                        assert left <= QQ(x) - origin[0] - drift[0] <= right
-                        assert down <= QQ(y) - origin[1] - drift[1] <= up
+@pytest.mark.plain
+def test_time_reached_at_any_line_of_the_search_is_before_the_contact():
+    """A signal may end a search anywhere, and `contact_free_until` is then what it has reached.
 
+    It is called at each line of the search: it never decreases, and is less than the contact. Rows
+    of squares fly apart, so slabs get longer; above them a square at x = t + 1 comes to x = 100.
+    """
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    bodies = [
+        Body(f"{i},{j}", [(3 * i + x, 3 * j + y) for x, y in square], Translation([0, 0.1 * i]))
+        for i, j in product(range(-4, 4), range(8))
+    ]
+    bodies.append(Body("moving", [(x, 40 + y) for x, y in square], Translation([0, 1])))
+    bodies.append(Body("still", [(100 + x, 40 + y) for x, y in square]))
+    search = pair_search(Scene(bodies, (0, 1000)))
+    reached = []
 
-def test_a_body_that_turns_has_no_linear_pieces():
-    turning = Body("mill", [(0, 0), (1, 0)], Rigid([0, 1]))
-    assert linear_pieces(Scene([turning], (0, 1))) is None
+    def trace(frame, event, _):
+        name = frame.f_code.co_filename
+        if event == "line":
+            sys.settrace(None)
+            reached.append(search.contact_free_until())
+            sys.settrace(trace)
+        return trace if "/exactpt/search/" in name else None
+
+    sys.settrace(trace)
+    try:
+        contact = search.run_to_contact()
+    finally:
+        sys.settrace(None)
+
+    known = [time for time in reached if time is not None]
+    assert search.stats["slabs"] > 1
+    assert known == sorted(known)
+    assert contact.time == 99
+    assert 99 > known[-1] >= known[0] == 0

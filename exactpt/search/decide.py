@@ -1,0 +1,185 @@
+"""Candidates decided exactly, in the order of time.
+
+A candidate (`exactpt.filters.candidates`) is a vertex and an edge, or two vertices, that may touch
+from some time on. Whether they do, and when, is decided here: in doubles if nothing is rounded
+(`exactpt.filters.exactly`), else by rationals if both bodies move straight and have no radius,
+else by the roots of polynomials (`exactpt.pair.features`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, final
+
+from exactpt.filters.candidates import Candidate, Candidates
+from exactpt.filters.exactly import first_exactly
+from exactpt.filters.rows import STRAIGHT
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import check_budget
+from exactpt.kernel.numbers import QQ, of_double
+from exactpt.motion.track import Incidence, vertex_touch
+from exactpt.pair.features import FeaturePair
+from exactpt.pair.straight import Earliest, meeting_of_point_and_edge, meeting_of_points
+from exactpt.search.reading import NOTHING, Rows
+from exactpt.search.trace import Trace
+
+Begin: TypeAlias = "tuple[QQ | AlgebraicNumber, Incidence]"
+"""A time, and an incidence that begins at it."""
+Squares: TypeAlias = "Callable[[int, int], QQ]"
+"""The squared distance of the cores at which two bodies touch, by their numbers."""
+
+
+@final
+class Decider:
+    """The earliest contact among candidates.
+
+    Args:
+        rows: the rows of all bodies.
+        squares: when two bodies touch; None if where their distance is the sum of their radii.
+        trace: what writes about decisions; None for nothing.
+
+    Attributes:
+        best: the earliest time so far, and the incidences that begin at it.
+        exact: number of the candidates that rationals or polynomials have decided.
+    """
+
+    def __init__(
+        self, rows: Rows, squares: Squares | None = None, trace: Trace | None = None
+    ) -> None:
+        self._rows = rows
+        self._squares = squares
+        self._trace = trace
+        self.best: Earliest[Incidence] = Earliest()
+        self._low = -math.inf  # no candidate that is still to be decided begins before it
+        self.exact = 0
+
+    def decide(self, found: Candidates, until: float) -> None:
+        """Decide the candidates of a slab.
+
+        Args:
+            found: the candidates.
+            until: the end of the slab.
+        """
+        candidates = found.rows()
+        if self._trace is not None:
+            self._trace.filtered(candidates, found.limit)
+        if len(candidates) == 1 or not self._decide_in_doubles(found, until):
+            self._decide_one_by_one(candidates, min(found.limit, until))
+        self._low = until
+
+    def free_until(self) -> float:
+        """Return a double before which no candidate so far begins, as far as it is known now."""
+        best = self.best.number
+        return self._low if best is None else min(self._low, best.enclosure()[0])
+
+    def _decide_in_doubles(self, found: Candidates, until: float) -> bool:
+        """Decide candidates in doubles, all at once; return False if something was rounded."""
+        rows = self._rows
+        span = rows.span
+        if span.low != span.after:  # the start is no double
+            return False
+        first = first_exactly(rows.table, found, span.after)
+        if not first.holds:
+            return False
+        time = None
+        incidences: list[Incidence] = []
+        if first.number:
+            time = of_double(first.numerator) / of_double(first.denominator)
+            incidences = [self._incidence(*row) for row in first.rows(found)]
+            if time <= span.end and time <= of_double(until):
+                self.best.add(time, incidences)
+        if self._trace is not None:
+            self._trace.in_doubles(time, incidences)
+        return True
+
+    def _incidence(self, one: int, vertex: int, other: int, edge: int, end: int) -> Incidence:
+        """Return the incidence of a vertex inside an edge, or at its end; -1 for no end."""
+        body = self._rows.table.body
+        if end < 0:
+            return Incidence(body[one], vertex, body[other], edge, -1)
+        return vertex_touch(body[one], vertex, body[other], end)
+
+    def _decide_one_by_one(self, candidates: Sequence[Candidate], limit: float) -> None:
+        """Decide candidates exactly, in the order of their bounds, up to a time."""
+        end = self._rows.span.end
+        if math.isfinite(limit):
+            end = min(end, of_double(limit))
+        for candidate in candidates:
+            self._low = candidate.low
+            if candidate.low > self.best.high:
+                return
+            check_budget()
+            self.exact += 1
+            begin = self._first(candidate, self.best.until(end))
+            if self._trace is not None:
+                self._trace.candidate(candidate, begin)
+            if begin is not None:
+                self.best.add(begin[0], begin[1:])
+
+    def _first(self, candidate: Candidate, until: QQ) -> Begin | None:
+        """Return when two features first touch, up to a time; None if they do not."""
+        rows, table = self._rows, self._rows.table
+        one, other = candidate.one, candidate.other
+        since = max(rows.spans[one].start, rows.spans[other].start)
+        until = min(until, rows.spans[one].end, rows.spans[other].end)
+        if not since < until:
+            return None
+        squared = self._squared(table.body[one], table.body[other])
+        if not squared and table.kind[one] == table.kind[other] == STRAIGHT:
+            return self._first_of_straight(candidate, since, until)
+        if math.isfinite(candidate.low):  # they do not touch before it
+            since = max(since, of_double(math.nextafter(candidate.low, -math.inf)))
+        return self._first_of_any(candidate, squared, since, until)
+
+    def _squared(self, i: int, j: int) -> QQ:
+        """Return the squared distance of the cores at which two bodies touch."""
+        if self._squares is not None:
+            return self._squares(i, j)
+        bodies = self._rows.bodies
+        if not self._rows.has_radius:
+            return NOTHING
+        return (bodies[i].exact_radius + bodies[j].exact_radius) ** 2
+
+    def _first_of_straight(self, candidate: Candidate, since: QQ, until: QQ) -> Begin | None:
+        """Return when a vertex first lies on an edge, by rationals; both bodies move straight."""
+        rows, table = self._rows, self._rows.table
+        one, other, vertex = candidate.one, candidate.other, candidate.vertex
+        begin, end = rows.ends_of(other, candidate.edge)
+        p, q = rows.moving_point(one, vertex), rows.moving_point(other, begin)
+        z = p.x - q.x, p.y - q.y
+        w = p.vx - q.vx, p.vy - q.vy
+        if begin == end:
+            met = meeting_of_points(z, w)
+        else:
+            r = rows.moving_point(other, end)
+            met = meeting_of_point_and_edge(z, w, (r.x - q.x, r.y - q.y))
+        if met is None or not since < met.time <= until:
+            return None
+        i, j = table.body[one], table.body[other]
+        if met.end is None:
+            return met.time, Incidence(i, vertex, j, candidate.edge, -1)
+        return met.time, vertex_touch(i, vertex, j, (begin, end)[met.end])
+
+    def _first_of_any(
+        self, candidate: Candidate, squared: QQ, since: QQ, until: QQ
+    ) -> Begin | None:
+        """Return when two features first have a squared distance after a time, by polynomials."""
+        if not since < until:
+            return None
+        rows, table = self._rows, self._rows.table
+        one, other, vertex = candidate.one, candidate.other, candidate.vertex
+        i, j = table.body[one], table.body[other]
+        ends: tuple[int, ...] = (candidate.other_vertex,)
+        if candidate.edge >= 0:
+            ends = rows.ends_of(other, candidate.edge)
+        if len(set(ends)) == 1:  # a point is an edge from its vertex to itself
+            ends = ends[:1]
+            touch = vertex_touch(i, vertex, j, ends[0])
+        else:
+            touch = Incidence(i, vertex, j, candidate.edge, -1)
+        a = rows.bodies[i].exact_piece_after(rows.spans[one].start)
+        b = rows.bodies[j].exact_piece_after(rows.spans[other].start)
+        pair = FeaturePair(touch, a.track(vertex), tuple(map(b.track, ends)))
+        time = pair.first_time(squared, AlgebraicNumber(since), until)
+        return None if time is None else (time, pair.touch_at(time, ends))

@@ -1,0 +1,353 @@
+"""Pairs of rows that come near each other in a slab of time, and their candidates.
+
+A *slab* is a window [low, high] of the time span. In a slab a row (`exactpt.filters.rows`) has a
+box that contains it all the time; two rows whose boxes do not meet do not touch in the slab. Of
+the pairs that are left, those that move straight have the times [enter, leave] at which their
+moving boxes meet. `Scan` compares their features in the order of `enter`, and ends at a time by
+which two of them certainly touch:
+
+    enter of the pairs   |--1--|    |--2--|  |--3--|         |--4--|
+                                          ^ limit: pair 2 certainly touches here
+    compared              1          2      3 up to the limit
+
+So most pairs are never compared. All of this is in doubles, within the bounds of the filters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from librt.vecs import append, vec
+from mypy_extensions import i64
+
+from exactpt.filters import straight
+from exactpt.filters.boxes import during, of_piece, sorted_by, strips
+from exactpt.filters.candidates import Candidates
+from exactpt.filters.features import Filter
+from exactpt.filters.rounding import INFINITY
+from exactpt.filters.rows import BOX, COEFFICIENTS, FRAME, OWN, STRAIGHT, Table
+from exactpt.filters.separation import are_separated
+from exactpt.filters.starts import are_disjoint
+
+SAMPLE: Final[i64] = 256
+"""Number of rows, about, of which a drift and a stride are estimated."""
+
+
+class Ignored:
+    """Groups of bodies that ignore each other.
+
+    Args:
+        groups: for each body the numbers of its groups, in increasing order; empty if no body is
+            in a group.
+    """
+
+    def __init__(self, groups: Sequence[Sequence[int]] = ()) -> None:
+        self._first = vec[i64]()
+        self._numbers = vec[i64]()
+        for some in groups:
+            self._first = append(self._first, i64(len(self._numbers)))
+            for number in some:
+                self._numbers = append(self._numbers, i64(number))
+        self._first = append(self._first, i64(len(self._numbers)))
+
+    def has(self, i: i64, j: i64) -> bool:
+        """Return True if two different bodies share a group."""
+        first, numbers = self._first, self._numbers
+        if len(first) == 1:
+            return False
+        p, q = first[i], first[j]
+        while p < first[i + 1] and q < first[j + 1]:
+            if numbers[p] == numbers[q]:
+                return True
+            if numbers[p] < numbers[q]:
+                p += 1
+            else:
+                q += 1
+        return False
+
+
+class Pairs:
+    """Pairs of rows.
+
+    Attributes:
+        one, two: the rows of each pair.
+        enter, leave: bounds of the times at which they may touch.
+    """
+
+    def __init__(self) -> None:
+        self.one = vec[i64]()
+        self.two = vec[i64]()
+        self.enter = vec[float]()
+        self.leave = vec[float]()
+
+    def count(self) -> int:
+        """Return the number of pairs."""
+        return len(self.one)
+
+    def add(self, table: Table, one: i64, two: i64, low: float, high: float) -> None:
+        """Add two rows, unless they certainly do not touch in [low, high]."""
+        enter = max(low, table.start[one], table.start[two])
+        leave = min(high, table.end[one], table.end[two])
+        if are_straight(table, one, two):
+            enter, leave = straight.meeting(table, one, two, enter, leave)
+        if enter <= leave:
+            self.one = append(self.one, one)
+            self.two = append(self.two, two)
+            self.enter = append(self.enter, enter)
+            self.leave = append(self.leave, leave)
+
+    def rows(self) -> list[tuple[int, int]]:
+        """Return the pairs of rows, in the order in which they were found."""
+        found: list[tuple[int, int]] = []
+        k: i64 = 0
+        while k < len(self.one):
+            found.append((int(self.one[k]), int(self.two[k])))
+            k += 1
+        return found
+
+
+def are_straight(table: Table, one: i64, two: i64) -> bool:
+    """Return True if two rows move straight, and touch where they have a point in common."""
+    if table.kind[one] != STRAIGHT or table.kind[two] != STRAIGHT:
+        return False
+    return table.radius[one] + table.radius[two] == 0.0
+
+
+class Drift:
+    """A velocity that many rows have in common, and a time in which they meet others.
+
+    Any drift and any stride are right: they are estimates, of a sample.
+
+    Attributes:
+        x, y: the median of the velocities; boxes are relative to it, as what all have in common
+            brings no two of them nearer.
+        stride: the time in which rows move, on average, by the mean distance of neighbours.
+    """
+
+    def __init__(self, x: float, y: float, stride: float) -> None:
+        self.x = x
+        self.y = y
+        self.stride = stride
+
+
+def drift_of(table: Table, now: float) -> Drift:
+    """Estimate the drift and the stride of the rows at a time."""
+    n: i64 = len(table.body)
+    if n == 0:
+        return Drift(0.0, 0.0, INFINITY)
+    step = max(n // SAMPLE, 1)
+    speeds_x, speeds_y = vec[float](), vec[float]()
+    left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+    k: i64 = 0
+    while k < n:
+        coefficients, at = table.frames, FRAME * k
+        x = coefficients[at] + 0.5 * (table.boxes[BOX * k] + table.boxes[BOX * k + 1])
+        y = coefficients[at + 4] + 0.5 * (table.boxes[BOX * k + 2] + table.boxes[BOX * k + 3])
+        if table.kind[k] == OWN:
+            coefficients, at = table.own, COEFFICIENTS * table.place[k]
+            x, y = coefficients[at], coefficients[at + 4]
+        speeds_x = append(speeds_x, speed_at(coefficients, at, now))
+        speeds_y = append(speeds_y, speed_at(coefficients, at + 4, now))
+        left, right, bottom, top = min(left, x), max(right, x), min(bottom, y), max(top, y)
+        k += step
+    drift_x, drift_y = median(speeds_x), median(speeds_y)
+    total = 0.0
+    m: i64 = len(speeds_x)
+    k = 0
+    while k < m:
+        total += abs(speeds_x[k] - drift_x) + abs(speeds_y[k] - drift_y)
+        k += 1
+    if not total > 0.0:
+        return Drift(drift_x, drift_y, INFINITY)
+    mean_speed = total / float(m)
+    mean_distance = ((right - left) + (top - bottom)) / float(n) ** 0.5
+    return Drift(drift_x, drift_y, mean_distance / mean_speed)
+
+
+def speed_at(coefficients: vec[float], at: i64, t: float) -> float:
+    """Return about the derivative of a polynomial of degree 3."""
+    bend = 2.0 * coefficients[at + 2] + 3.0 * t * coefficients[at + 3]
+    return coefficients[at + 1] + t * bend
+
+
+def median(values: vec[float]) -> float:
+    """Return a median of some values, one or more."""
+    n: i64 = len(values)
+    return values[sorted_by(values)[n // 2]]
+
+
+def pairs_during(table: Table, ignored: Ignored, low: float, high: float, drift: Drift) -> Pairs:
+    """Return the pairs of rows of different bodies that may touch in [low, high]."""
+    active, boxes = during(table, low, high, drift.x, drift.y)
+    met = strips(boxes, 0)
+    pairs = Pairs()
+    k: i64 = 0
+    while k < len(met):
+        one, two = active[met[k]], active[met[k + 1]]
+        k += 2
+        i, j = table.body[one], table.body[two]
+        if i != j and not ignored.has(i, j):
+            pairs.add(table, one, two, low, high)
+    return pairs
+
+
+def pairs_of_bodies(
+    table: Table, bodies: Sequence[tuple[int, int]], low: float, high: float
+) -> Pairs:
+    """Return the pairs of rows of given pairs of bodies that may touch in [low, high].
+
+    Args:
+        table: the rows, those of a body one after the other.
+        bodies: pairs of different bodies.
+        low: the start.
+        high: the end.
+    """
+    first, count = rows_of_bodies(table)
+    pairs = Pairs()
+    for i, j in bodies:
+        one = first[i]
+        while one < first[i] + count[i]:
+            two = first[j]
+            while two < first[j] + count[j]:
+                pairs.add(table, one, two, low, high)
+                two += 1
+            one += 1
+    return pairs
+
+
+def rows_of_bodies(table: Table) -> tuple[vec[i64], vec[i64]]:
+    """Return the first row of each body that has one, and the number of its rows."""
+    first, count = vec[i64](), vec[i64]()
+    k: i64 = 0
+    while k < len(table.body):
+        body = table.body[k]
+        while len(first) <= body:
+            first = append(first, k)
+            count = append(count, 0)
+        count[body] += 1
+        k += 1
+    return first, count
+
+
+def boxes_during(table: Table, low: float, high: float) -> vec[float]:
+    """Return the boxes of all rows in [low, high], `BOX` numbers each."""
+    boxes = vec[float]()
+    k: i64 = 0
+    while k < len(table.body):
+        left, right, bottom, top = of_piece(table, k, low, high, 0.0, 0.0)
+        boxes = append(boxes, left)
+        boxes = append(boxes, right)
+        boxes = append(boxes, bottom)
+        boxes = append(boxes, top)
+        k += 1
+    return boxes
+
+
+def pairs_with_others(table: Table, boxes: vec[float], low: float, high: float) -> Pairs:
+    """Return the pairs of one of the last rows and one of the first that may touch in [low, high].
+
+    Args:
+        table: the rows; the last ones are of another body than the first ones.
+        boxes: the boxes in [low, high] of the first rows, see `boxes_during`.
+        low: the start.
+        high: the end.
+    """
+    pairs = Pairs()
+    others: i64 = len(boxes) // BOX
+    row = others
+    while row < len(table.body):
+        left, right, bottom, top = of_piece(table, row, low, high, 0.0, 0.0)
+        k: i64 = 0
+        while k < others:
+            at = BOX * k
+            is_beside = boxes[at] > right or boxes[at + 1] < left
+            is_above = boxes[at + 2] > top or boxes[at + 3] < bottom
+            if not is_beside and not is_above:
+                pairs.add(table, row, k, low, high)
+            k += 1
+        row += 1
+    return pairs
+
+
+def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[tuple[int, int]]:
+    """Return the pairs i < j of bodies that may touch at a start between two doubles, sorted.
+
+    Args:
+        table: the rows.
+        pairs: all pairs of rows that may touch at the start, and others.
+        low: at most the start.
+        high: at least the start.
+    """
+    found: set[tuple[int, int]] = set()
+    windows = Filter(table)
+    k: i64 = 0
+    while k < len(pairs.one):
+        one, two = pairs.one[k], pairs.two[k]
+        if pairs.enter[k] <= high and not (low == high and are_disjoint(windows, one, two, low)):
+            i, j = table.body[one], table.body[two]
+            found.add((int(min(i, j)), int(max(i, j))))
+        k += 1
+    return sorted(found)
+
+
+class Scan:
+    """The candidates of some pairs of rows, pair by pair in the order of `Pairs.enter`.
+
+    Args:
+        table: the rows.
+        pairs: the pairs.
+        after: a double at or after the start: a pair that is found to touch later certainly
+            begins to touch after the start.
+        end: the end of the slab.
+
+    Attributes:
+        found: the candidates so far.
+        low: no pair that is still to be compared touches before it.
+        is_done: whether all pairs that matter have been compared.
+    """
+
+    def __init__(self, table: Table, pairs: Pairs, after: float, end: float) -> None:
+        self._table = table
+        self._pairs = pairs
+        self._after = after
+        self._end = end
+        self._order = sorted_by(pairs.enter)
+        self._next: i64 = 0
+        self._filter = Filter(table)
+        self.found = Candidates(end)
+        self.low = -INFINITY
+        self.is_done = False
+
+    def free_until(self) -> float:
+        """Return a double before which no two rows touch, as far as it is known now."""
+        low, lows = min(self.low, self._end), self.found.low
+        k: i64 = 0
+        while k < len(lows):
+            low = min(low, lows[k])
+            k += 1
+        return low
+
+    def compare(self, many: int) -> None:
+        """Compare pairs until so many pairs of features, or more, have been compared."""
+        table, pairs, found = self._table, self._pairs, self.found
+        enough: i64 = found.compared + i64(many)
+        while self._next < len(self._order):
+            k = self._order[self._next]
+            self.low = pairs.enter[k]
+            if self.low > found.limit:
+                break
+            if found.compared >= enough:
+                return
+            self._next += 1
+            found.pairs += 1
+            one, two = pairs.one[k], pairs.two[k]
+            leave = min(pairs.leave[k], found.limit)
+            if are_straight(table, one, two):
+                if not are_separated(table, one, two, self.low, leave):
+                    straight.collect(table, one, two, self.low, leave, self._after, found)
+            else:
+                self._filter.collect(one, two, self.low, leave, self._after, found)
+        self.low = INFINITY
+        self.found = self._filter.sharpen(found, self._after)
+        self.is_done = True
