@@ -20,6 +20,10 @@ from exactpt.certificates import certifier, coefficients, incidences, perturbati
 from exactpt.certificates import first_root as filters
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
+from exactpt.filters import starts, straight
+from exactpt.filters.exactly import Entry
+from exactpt.filters.features import Filter
+from exactpt.filters.straight import Passage
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel import roots
 from exactpt.kernel.integer_polynomial import negate
@@ -422,7 +426,12 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "a step of the length of the next one": Mistake(
         "A value is used after it has changed.",
-        Edit(SlabsOfAll, "__iter__", "low = high", "low += length"),
+        Edit(
+            SlabsOfAll,
+            "__iter__",
+            "low, length = high, 2.0 * length",
+            "low, length = low + 2.0 * length, 2.0 * length",
+        ),
     ),
     "groups but the first forgotten": Mistake(
         "Of several the first one is taken for all.",
@@ -445,10 +454,6 @@ PLANTED: Final[dict[str, Mistake]] = {
             "EXACT",
         ),
     ),
-    "a formula used beyond its piece": Mistake(
-        "A formula is used at times at which it does not hold.",
-        Edit(Rows, "_add_rounded", "self.has_pieces |= len(during) > 1", "pass"),
-    ),
     "the later start of two pieces forgotten": Mistake(
         "What begins for one of two is taken to begin for both.",
         Edit(
@@ -457,6 +462,35 @@ PLANTED: Final[dict[str, Mistake]] = {
             "max(rows.spans[one].start, rows.spans[other].start)",
             "rows.spans[one].start",
         ),
+    ),
+    "times before 0 forgotten": Mistake(
+        "The largest size of a time is taken to be that of the end of its span.",
+        Edit(straight, "meeting", "w_error * larger(low, high)", "w_error * high"),
+    ),
+    "containment at the start missed by doubles": Mistake(
+        "Boundaries are compared, and what is inside them is not.",
+        Edit(
+            starts,
+            "are_disjoint",
+            "pair.is_second_outside() and swapped.is_second_outside()",
+            "True",
+        ),
+    ),
+    "the wrong end of an edge along which a vertex slides": Mistake(
+        "One of two directions is confused with the other.",
+        Edit(Entry, "find", "and w_along > 0.0", "and w_along < 0.0"),
+    ),
+    "vertices in line with an edge left out": Mistake(
+        "A function that vanishes identically is taken for one without a zero.",
+        Edit(Passage, "compare", "found.add(features, self.low, high, high)", "pass"),
+    ),
+    "two vertices of bodies with radii not compared": Mistake(
+        "One of several kinds of features is forgotten.",
+        Edit(Filter, "_collect_window", "if self.distance != 0.0:", "if False:"),
+    ),
+    "one side of an edge forgotten": Mistake(
+        "Of two roots only one is looked for.",
+        Edit(Filter, "_add_edge", "(distance, -distance)", "(distance,)"),
     ),
     "a loop that does not look at the clock": Mistake(
         "A limit is not kept: no answer is wrong, but it comes too late.",
