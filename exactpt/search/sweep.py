@@ -29,7 +29,12 @@ from exactpt.filters.rounding import INFINITY
 from exactpt.filters.rows import BOX, COEFFICIENTS, FRAME, OWN, STRAIGHT, Table
 from exactpt.filters.separation import are_separated
 from exactpt.filters.starts import are_disjoint
+from exactpt.kernel.budget import check_budget
 
+OFTEN: Final[i64] = 1024
+"""Numbers of pairs of boxes between two looks at the budget, two for each pair."""
+SELDOM: Final[i64] = 8
+"""Number of pairs of rows at the start between two looks at the budget."""
 SAMPLE: Final[i64] = 256
 """Number of rows, about, of which a drift and a stride are estimated."""
 
@@ -186,6 +191,8 @@ def pairs_during(table: Table, ignored: Ignored, low: float, high: float, drift:
     while k < len(met):
         one, two = active[met[k]], active[met[k + 1]]
         k += 2
+        if k % OFTEN == 0:
+            check_budget()
         i, j = table.body[one], table.body[two]
         if i != j and not ignored.has(i, j):
             pairs.add(table, one, two, low, high)
@@ -284,6 +291,8 @@ def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[t
     k: i64 = 0
     while k < len(pairs.one):
         one, two = pairs.one[k], pairs.two[k]
+        if k % SELDOM == 0:
+            check_budget()
         if pairs.enter[k] <= high and not (low == high and are_disjoint(windows, one, two, low)):
             i, j = table.body[one], table.body[two]
             found.add((int(min(i, j)), int(max(i, j))))

@@ -47,7 +47,7 @@ FEW: Final = 4
 """Number of bodies up to which the whole time span is one slab at first."""
 SHORTEST: Final = 2.0**-40
 """Part of the time span below which no slab is cut."""
-MANY: Final = 1 << 14
+MANY: Final = 1 << 10
 """Number of pairs of features that are compared between two looks at the budget."""
 
 
