@@ -113,7 +113,7 @@ def test_run_fails_above_the_limit_that_the_environment_names(monkeypatch, capsy
     [
         (None, ["fuzz", "benchmarks", ".ci"]),
         ([], []),
-        (["exactpt/search/near.py", "tests/unit/search/test_near.py", "fuzzy.py"], []),
+        (["exactpt/search/sweep.py", "tests/unit/search/test_pairs.py", "fuzzy.py"], []),
         (["fuzz/laws/table.py", "README.md"], ["fuzz"]),
         (
             ["benchmarks/tests/test_engines.py", ".github/workflows/night.yml"],

@@ -259,6 +259,8 @@ def cut_of(boxes: vec[float]) -> Cut:
         return Cut(0.0, 1.0, 1)
     mean = total / float(n)
     height = max(2.0 * mean, extent / float(n) ** 0.5)
+    if not height > 0.0:  # it underflows
+        return Cut(0.0, 1.0, 1)
     return Cut(lowest, height, i64(extent / height) + 1)
 
 

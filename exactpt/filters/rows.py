@@ -16,6 +16,9 @@ The kind of the piece says what p, a, b, c, d are; all polynomials are of degree
     `TURNING`    (a, b; c, d) is the turn by the angle of which the half has the tangent h(t).
     `AFFINE`     a, b, c, d are polynomials.
     `OWN`        no places: each vertex has two polynomials of its own.
+
+The searches of today read bodies that move straight alone (`exactpt.search.reading`); the filters
+are right for all kinds, and their adversaries make rows of each.
 """
 
 from __future__ import annotations
@@ -127,14 +130,16 @@ class Table:
         begins, ends: the vertices at the ends of edges, numbered within the piece.
         body: the number of the body of each piece.
         kind: the kind of its motion.
-        start, end: the times between which it lasts, rounded outward.
+        start, end: the times between which it lasts: the last double that is not after the exact
+            start, and the first one that is not before the exact end.
         place: the number of its first place (`OWN`: of its first vertex in ``own``).
         size: the number of its vertices.
         edge, edges: the number of its first edge, and the number of its edges.
-        frames: `FRAME` numbers a piece; relative errors at most U, beside those below.
+        frames: `FRAME` numbers a piece; beside the errors below, relative errors at most U, and of
+            `STRAIGHT` pieces none.
         boxes: `BOX` numbers a piece: a box of its places; if it turns, of all turns of them.
         place_error, path_error, speed_error: bounds as in `Errors`, in lengths (speed: by time).
-        radius: at least the radius; larger by at most 2 U of it.
+        radius: at least the radius, with what the question adds to it; larger by at most 2 U of it.
         deforms: 1 if vertices of the piece may touch its own edges, else 0.
     """
 

@@ -1,4 +1,4 @@
-"""Contacts at the start of a scene, decided exactly before any tiling is built."""
+"""Contacts at the start of a scene, decided exactly before any search."""
 
 from __future__ import annotations
 

@@ -63,7 +63,8 @@ class Decider:
         """
         candidates = found.rows()
         if self._trace is not None:
-            self._trace.filtered(candidates, found.limit)
+            self._trace.filtered(candidates, found.limit, until)
+        # A lone candidate has no tie, and rationals take as long as the attempt in doubles.
         if len(candidates) == 1 or not self._decide_in_doubles(found, until):
             self._decide_one_by_one(candidates, min(found.limit, until))
         self._low = until

@@ -50,8 +50,8 @@ def first_contact(
         method: "kinetic" keeps a tiling; "pairs" searches pairs of features without a tiling;
             "auto" is "pairs" unless a tiling is named or a proof is wanted, or the
             coefficients of many vertices are out of the range of doubles.
-        tiling: the tiling to keep, one of `TILINGS` or `POINT_TILING`; "auto" is "incremental"
-            if all bodies are points, else "lazy", which has the fewest events.
+        tiling: the tiling to keep, one of `TILINGS`, or "incremental" for points; "auto" is
+            "incremental" if all bodies are points, else "lazy", which has the fewest events.
         exact_only: whether exact arithmetic decides everything, without the float filters.
         ignoring: groups of names and patterns as of a `Scene`, beside those of the scene.
             Contacts between two bodies of one group are ignored. A tiling watches all bodies, so

@@ -31,10 +31,10 @@ from exactpt.filters.separation import are_separated
 from exactpt.filters.starts import are_disjoint
 from exactpt.kernel.budget import check_budget
 
-OFTEN: Final[i64] = 1024
-"""Numbers of pairs of boxes between two looks at the budget, two for each pair."""
-SELDOM: Final[i64] = 8
-"""Number of pairs of rows at the start between two looks at the budget."""
+BOXES_A_LOOK: Final[i64] = 512
+"""Number of pairs of boxes between two looks at the budget."""
+STARTS_A_LOOK: Final[i64] = 8
+"""Number of pairs of rows that are compared at the start between two looks at the budget."""
 SAMPLE: Final[i64] = 256
 """Number of rows, about, of which a drift and a stride are estimated."""
 
@@ -163,9 +163,9 @@ def drift_of(table: Table, now: float) -> Drift:
     while k < m:
         total += abs(speeds_x[k] - drift_x) + abs(speeds_y[k] - drift_y)
         k += 1
-    if not total > 0.0:
-        return Drift(drift_x, drift_y, INFINITY)
     mean_speed = total / float(m)
+    if not mean_speed > 0.0:
+        return Drift(drift_x, drift_y, INFINITY)
     mean_distance = ((right - left) + (top - bottom)) / float(n) ** 0.5
     return Drift(drift_x, drift_y, mean_distance / mean_speed)
 
@@ -191,7 +191,7 @@ def pairs_during(table: Table, ignored: Ignored, low: float, high: float, drift:
     while k < len(met):
         one, two = active[met[k]], active[met[k + 1]]
         k += 2
-        if k % OFTEN == 0:
+        if k % (2 * BOXES_A_LOOK) == 0:
             check_budget()
         i, j = table.body[one], table.body[two]
         if i != j and not ignored.has(i, j):
@@ -213,6 +213,7 @@ def pairs_of_bodies(
     first, count = rows_of_bodies(table)
     pairs = Pairs()
     for i, j in bodies:
+        check_budget()
         one = first[i]
         while one < first[i] + count[i]:
             two = first[j]
@@ -264,6 +265,7 @@ def pairs_with_others(table: Table, boxes: vec[float], low: float, high: float) 
     others: i64 = len(boxes) // BOX
     row = others
     while row < len(table.body):
+        check_budget()
         left, right, bottom, top = of_piece(table, row, low, high, 0.0, 0.0)
         k: i64 = 0
         while k < others:
@@ -291,7 +293,7 @@ def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[t
     k: i64 = 0
     while k < len(pairs.one):
         one, two = pairs.one[k], pairs.two[k]
-        if k % SELDOM == 0:
+        if k % STARTS_A_LOOK == 0:
             check_budget()
         if pairs.enter[k] <= high and not (low == high and are_disjoint(windows, one, two, low)):
             i, j = table.body[one], table.body[two]

@@ -85,7 +85,7 @@ class SlabsOfAll:
         span = end - low
         length = span
         if self._count > FEW and 0.0 < drift.stride < math.inf:
-            length = min(span, 0.5 * drift.stride)
+            length = min(span, 0.5 * drift.stride)  # both of two neighbours move
         many = 4 * self._count + 64
         is_last = False
         while not is_last:

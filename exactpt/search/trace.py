@@ -46,9 +46,9 @@ class Trace:
         }
         self._write(f"slab [{slab.low!r}, {slab.high!r}]: {pairs.count()} pairs of rows are near")
 
-    def filtered(self, candidates: Sequence[Candidate], limit: float) -> None:
-        """Write what the filters have left of a slab."""
-        known = f"; a contact is certain by {limit!r}" if candidates else ""
+    def filtered(self, candidates: Sequence[Candidate], limit: float, end: float) -> None:
+        """Write what the filters have left of a slab with an end."""
+        known = f"; a contact is certain by {limit!r}" if limit < end else ""
         self._write(f"  filters leave {len(candidates)} candidates{known}")
 
     def candidate(self, candidate: Candidate, begin: object) -> None:

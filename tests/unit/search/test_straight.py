@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, Contact, Pieces, Scene, Translation, first_contact
+from exactpt import Body, Contact, Pieces, Scene, Translation, first_contact, first_within
 from exactpt.kernel.numbers import QQ
 from exactpt.pair import incidences
 from exactpt.search.features_sweep import PairsSearch
@@ -336,3 +336,29 @@ def test_time_reached_at_any_line_of_the_search_is_before_the_contact():
     assert known == sorted(known)
     assert contact.time == 99
     assert 99 > known[-1] >= known[0] == 0
+
+
+def test_least_speed_of_doubles_is_searched_like_others():
+    """The gap of 4 closes by 10 * 2^-1074 at most."""
+    least = math.ulp(0.0)
+    corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
+    slow = Body("slow", [(x + 5.0, y) for x, y in corners], Translation([0.0, -least]))
+    scene = Scene([Body("still", corners), slow], (0, 10))
+
+    assert first_contact(scene) is None
+    assert first_within(scene, distance=3) is None
+
+
+def test_least_height_of_doubles_is_swept_like_others():
+    """Two zigzags of that height; one crosses the other at once, at a speed that no double has."""
+    least = math.ulp(0.0)
+    zigzag = [(float(k), least * (k % 2)) for k in range(101)]
+    fast = Body(
+        "fast", [(x, 1 + y) for x, y in zigzag], Translation([0], [0, -(10**400)]), closed=False
+    )
+    scene = Scene([Body("still", zigzag, closed=False), fast], (0, 1))
+
+    contact = first_contact(scene)
+
+    assert contact is not None
+    assert 0 < contact.time < QQ(1, 10**399)
