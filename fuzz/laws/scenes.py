@@ -94,6 +94,20 @@ def fractions_scene(random: Random) -> Scene:
     return Scene(bodies, time=(0, 3))
 
 
+def grazing_scene(random: Random) -> Scene:
+    """A chain that falls and rises again: at its lowest place an end of it, or both, meet points.
+
+    Its ends are level, and a point is level with them: an orientation of these has an even zero.
+    """
+    width, height, turn = random.randint(1, 4), random.randint(1, 3), random.randint(1, 3)
+    corners = [(width, 0), (width, height), (0, height), (0, 0)]
+    falling = Translation([0], [turn * turn, -2 * turn, 1])
+    points = [(width, 0), (0, 0), (width + random.randint(1, 3), random.randint(-7, 0))]
+    chain = Body("chain", corners, falling, closed=False)
+    some = random.sample(points, random.randint(1, 3))
+    return Scene([chain, *(Body(str(k), [place]) for k, place in enumerate(some))], (0, 2 * turn))
+
+
 def corner_scene(random: Random) -> Scene:
     """Return a body of which a vertex comes to a vertex of a wall at t = 8, if nothing else does.
 
@@ -182,6 +196,7 @@ SOURCES: Final[dict[str, Source]] = {
     "pockets": pocket_scene,
     "tiny/corners": corner_scene,
     "tiny/sliders": sliders,
+    "tiny/grazing": grazing_scene,
     "far/convoy": convoy,
     "spinning": spinning_scene,
     "poses": path_scene,

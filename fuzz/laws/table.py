@@ -119,7 +119,7 @@ GENERAL: Final = tuple(
 LAWS: Final[dict[str, Law]] = {
     "first contact/reference": Law(
         as_defined("first contact", several=4),
-        (*TINY, *CLOSE, "tiny/rounded", "tiny/scaled", "tiny/sliders", "case"),
+        (*TINY, *CLOSE, "tiny/rounded", "tiny/scaled", "tiny/sliders", "tiny/grazing", "case"),
         share=4,
         most=30,
     ),
