@@ -66,7 +66,7 @@ def left_behind(folder):
 )
 def test_what_never_ends_is_interrupted(scene, monkeypatch, capsys, name, patched):
     monkeypatch.setattr(patched, for_ever)
-    monkeypatch.setattr("exactpt.search.sweep.Scan.advance", for_ever)
+    monkeypatch.setattr("exactpt.search.sweep.Scan.compare", for_ever)
 
     assert run(name, scene, 0.05) == 4
     assert "time limit exceeded" in capsys.readouterr().err
@@ -117,7 +117,7 @@ def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
 @pytest.mark.parametrize("name", ["collide", "collide in words", "collide pairs"])
 def test_at_start_up_the_start_is_told(scene, monkeypatch, capsys, name):
     monkeypatch.setattr(pairs.PairsSearch, "_search", for_ever)
-    monkeypatch.setattr("exactpt.search.sweep.Scan.advance", for_ever)
+    monkeypatch.setattr("exactpt.search.sweep.Scan.compare", for_ever)
     monkeypatch.setattr(Tiling, "__init__", for_ever)
 
     assert run(name, scene, 0.05) == 4
