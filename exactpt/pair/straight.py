@@ -51,6 +51,18 @@ class LinearContact(NamedTuple):
         return algebraic(self.time)
 
 
+class Begin(NamedTuple):
+    """When an incidence begins.
+
+    Attributes:
+        time: the time.
+        incidence: the incidence.
+    """
+
+    time: QQ | AlgebraicNumber
+    incidence: Incidence
+
+
 class Candidate(NamedTuple):
     """An incidence that may begin in [low, high].
 

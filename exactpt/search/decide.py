@@ -20,12 +20,15 @@ from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, of_double
 from exactpt.motion.track import Incidence, vertex_touch
 from exactpt.pair.features import FeaturePair
-from exactpt.pair.straight import Earliest, meeting_of_point_and_edge, meeting_of_points
+from exactpt.pair.straight import (
+    Begin,
+    Earliest,
+    meeting_of_point_and_edge,
+    meeting_of_points,
+)
 from exactpt.search.reading import NOTHING, Rows
 from exactpt.search.trace import Trace
 
-Begin: TypeAlias = "tuple[QQ | AlgebraicNumber, Incidence]"
-"""A time, and an incidence that begins at it."""
 Squares: TypeAlias = "Callable[[int, int], QQ]"
 """The squared distance of the cores at which two bodies touch, by their numbers."""
 
@@ -64,7 +67,7 @@ class Decider:
         candidates = found.rows()
         if self._trace is not None:
             self._trace.filtered(candidates, found.limit, until)
-        # A lone candidate has no tie, and rationals take as long as the attempt in doubles.
+        # The attempt in doubles is for ties, of which a lone candidate has none.
         if len(candidates) == 1 or not self._decide_in_doubles(found, until):
             self._decide_one_by_one(candidates, min(found.limit, until))
         self._low = until
@@ -116,7 +119,7 @@ class Decider:
             if self._trace is not None:
                 self._trace.candidate(candidate, begin)
             if begin is not None:
-                self.best.add(begin[0], begin[1:])
+                self.best.add(begin.time, [begin.incidence])
 
     def _first(self, candidate: Candidate, until: QQ) -> Begin | None:
         """Return when two features first touch, up to a time; None if they do not."""
@@ -159,8 +162,8 @@ class Decider:
             return None
         i, j = table.body[one], table.body[other]
         if met.end is None:
-            return met.time, Incidence(i, vertex, j, candidate.edge, -1)
-        return met.time, vertex_touch(i, vertex, j, (begin, end)[met.end])
+            return Begin(met.time, Incidence(i, vertex, j, candidate.edge, -1))
+        return Begin(met.time, vertex_touch(i, vertex, j, (begin, end)[met.end]))
 
     def _first_of_any(
         self, candidate: Candidate, squared: QQ, since: QQ, until: QQ
@@ -183,4 +186,4 @@ class Decider:
         b = rows.bodies[j].exact_piece_after(rows.spans[other].start)
         pair = FeaturePair(touch, a.track(vertex), tuple(map(b.track, ends)))
         time = pair.first_time(squared, AlgebraicNumber(since), until)
-        return None if time is None else (time, pair.touch_at(time, ends))
+        return None if time is None else Begin(time, pair.touch_at(time, ends))

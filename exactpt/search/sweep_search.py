@@ -21,6 +21,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Final, NamedTuple, final
 
+from exactpt.cached_property import cached_property
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget, deadline_in, searching
@@ -147,13 +148,17 @@ class Sweep:
     ) -> None:
         self._rows = rows
         self._slabs = iter(slabs)
-        self._first = next(self._slabs)
         self._trace = trace_of(rows)
         self._decider = Decider(rows, squares, self._trace)
         self._deadline = deadline
         self._low: float | None = None
         self._in_progress: Scan | Decider | None = None
         self.slabs = self.pairs = self.compared = 0
+
+    @cached_property
+    def _first(self) -> Slab:
+        """The first slab, found when the search begins: its budget holds for that, too."""
+        return next(self._slabs)
 
     @property
     def exact(self) -> int:

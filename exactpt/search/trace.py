@@ -15,6 +15,7 @@ from exactpt.filters.candidates import Candidate
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.track import Incidence
+from exactpt.pair.straight import Begin
 
 if TYPE_CHECKING:
     from exactpt.search.reading import Rows
@@ -51,12 +52,12 @@ class Trace:
         known = f"; a contact is certain by {limit!r}" if limit < end else ""
         self._write(f"  filters leave {len(candidates)} candidates{known}")
 
-    def candidate(self, candidate: Candidate, begin: object) -> None:
+    def candidate(self, candidate: Candidate, begin: Begin | None) -> None:
         """Write about a candidate that has been decided.
 
         Args:
             candidate: the candidate.
-            begin: the time at which it begins, and the incidence; None if it does not.
+            begin: when it begins; None if it does not.
         """
         one, other = candidate.one, candidate.other
         feature = f"edge {candidate.edge}"
@@ -67,12 +68,12 @@ class Trace:
             f"  vertex {candidate.vertex} of {self._name(one)}, {feature} of {self._name(other)}: "
             f"boxes meet in [{enter!r}, {leave!r}], "
             f"the filter says [{candidate.low!r}, {candidate.high!r}], "
-            f"exact arithmetic: {_said(begin)}"
+            f"exact arithmetic: {_said(None if begin is None else begin.time)}"
         )
 
     def in_doubles(self, time: QQ | None, incidences: Sequence[Incidence]) -> None:
         """Write that doubles without rounding have decided all candidates."""
-        self._write(f"  doubles without rounding: {_said(None if time is None else (time,))}")
+        self._write(f"  doubles without rounding: {_said(time)}")
         for incidence in incidences:
             self._write(f"    {incidence}")
 
@@ -83,12 +84,9 @@ class Trace:
         sys.stderr.write(f"exactpt: {line}\n")
 
 
-def _said(begin: object) -> str:
+def _said(time: QQ | AlgebraicNumber | None) -> str:
     """Return an exact decision in words."""
-    if not isinstance(begin, tuple):
-        return "no contact"
-    time: QQ | AlgebraicNumber = begin[0]
-    return f"contact at {time}"
+    return "no contact" if time is None else f"contact at {time}"
 
 
 def trace_of(rows: Rows) -> Trace | None:
