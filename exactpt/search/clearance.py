@@ -61,7 +61,9 @@ class ClearancePiece(NamedTuple):
 
     Attributes:
         start, end: the closed interval.
-        features: of the first and the second body; None while the bodies intersect.
+        features: of the first and the second body; None while the bodies intersect. An edge has its
+            ends: where the foot of the perpendicular comes to an end of it and turns back, the
+            pair stays the same, though at this single time `distance` has the vertex instead.
         numerator, denominator: polynomials with integer coefficients, the constant first, whose
             quotient is the square of the distance plus `Clearance.radius`. Where both vanish,
             which they do at single times, it is the limit.

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import exactpt
+from exactpt.pair.features import Feature
 from exactpt.search.clearance import Clearance, Minimum
 from fuzz.laws.runner import cases_of, look
 
@@ -27,6 +28,27 @@ def without_first_piece(right):
         return replace(gap, pieces=gap.pieces[-1:]) if isinstance(gap, Clearance) else gap
 
     return wrong
+
+
+def with_an_edge_for_its_end(right):
+    """A piece of two vertices has an edge of which one of them is an end."""
+
+    def wrong(scene, a, b=None):
+        gap = right(scene, a, b)
+        if not isinstance(gap, Clearance):
+            return gap
+        edges = scene.body(b).edges
+        return replace(gap, pieces=tuple(_of_an_edge(piece, edges) for piece in gap.pieces))
+
+    return wrong
+
+
+def _of_an_edge(piece, edges):
+    if piece.features is None or piece.features[0].vertex is None:
+        return piece
+    one, two = piece.features
+    of_end = [e for e, ends in enumerate(edges) if two.vertex in ends]
+    return piece._replace(features=(one, Feature(None, of_end[0]))) if of_end else piece
 
 
 def with_late_minimum(right):
@@ -109,6 +131,7 @@ def always(value):
         ("distance/reference", "distance", with_features_of_one_body),
         ("distance/below", "clearance", without_first_piece),
         ("distance/clearance", "clearance", without_first_piece),
+        ("distance/clearance", "clearance", with_an_edge_for_its_end),
         ("distance/least", "clearance", with_late_minimum),
         ("distance/surroundings", "clearance", without_last_below),
         ("new contact/reference", "first_contact", always(never)),

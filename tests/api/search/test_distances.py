@@ -193,6 +193,35 @@ def test_clearance_of_edges_that_stay_parallel_is_one_piece():
     assert gap.minimum == (0, 9)
 
 
+def test_bug_at_a_time_at_which_the_foot_turns_back_at_an_end_the_edge_stays_nearest():
+    """The end of the edge is at (3 + (t - 1)^2, 0), the point at (3, 1): at t = 1 it is above it.
+
+    The distance is 1 at all times. `distance` has the interior of the edge, and so the end alone
+    at t = 1; the piece has the edge with its ends, and is not cut there.
+    """
+    point = Body("point", [(3, 1)])
+    edge = Body("edge", [(4, 0), (0, 0)], Translation([0, -2, 1]))
+    scene = Scene([point, edge], time=(0, 2))
+    point_and_edge, point_and_end = ((0, None), (None, 0)), ((0, None), (0, None))
+
+    gap = clearance(scene, "point", "edge")
+
+    assert [(p.start, p.end, p.features) for p in gap.pieces] == [(0, 2, point_and_edge)]
+    assert gap.minimum == (0, 1)
+    at_times = [distance(scene, "point", "edge", at=t).features for t in (0, 1, 2)]
+    assert at_times == [(point_and_edge,), (point_and_end,), (point_and_edge,)]
+
+
+@pytest.mark.parametrize("path", [[3], [3, 1], [3, -1]])
+def test_clearance_of_a_point_that_stays_above_an_end_is_of_two_vertices(path):
+    """The foot is at the end for all t, which is not a single time: two vertices are nearest."""
+    point = Body("point", [(0, 0)], Translation([5], path))
+
+    gap = clearance(Scene([point, Body("edge", [(5, 0), (0, 0)])], time=(0, 2)), "point", "edge")
+
+    assert [piece.features for piece in gap.pieces] == [((0, None), (0, None))]
+
+
 def test_clearance_along_a_parabola_is_least_at_an_irrational_time():
     """Past the corner (2, 2): the squared distance is of degree 4, its derivative a cubic."""
     gap = gap_of(Body("point", [(6, -1)], Translation([0, -1], [0, "1/2", "1/7"])), time=(0, 9))
