@@ -12,8 +12,10 @@ import pytest
 from exactpt.filters import straight
 from exactpt.filters.candidates import Candidate, Candidates
 from exactpt.filters.rows import EXACT, STRAIGHT, Errors, Piece, Table
-from fuzz.adversaries.straight import attack
+from fuzz.adversaries.exact_times import as_integers, compared, touching
+from fuzz.adversaries.straight import Tally, attack, fill, judge, one_vertex_and_edge
 from fuzz.adversaries.straight_pieces import attack_boxes, attack_near, attack_pieces
+from fuzz.adversaries.straight_rows import THIRDS, Row
 from fuzz.power.edits import Edit
 
 U = 2.0**-53
@@ -349,6 +351,45 @@ PLANTED = {
         straight, "while_between", "elif w < 0.0:", "elif w == 9.0:"
     ),
 }
+
+
+# A vertex at p, an edge from q to r and a displacement c, of which u and z, their products and the
+# displaced z are all rounded to one side. So c0 is off by 3.7 U (|ux zy| + |uy zx|), of the 4 U to
+# which these roundings may add up (its own one is 0: the two products are nearly equal). The vertex
+# crosses the edge at t' = -3.5 10^-14, inside of it, where e1 |t| adds nothing.
+P = "0x1.9acd14af6b314p-3", "0x1.0f5bdc1a00572p-2"
+Q = "-0x1.9a829aa39ef44p-1", "-0x1.79ff382c8c7f2p-1"
+R = "0x1.349e8d0937705p+0", "0x1.44ad8a23464b8p+0"
+C = "0x1.53f5171ae25d5p-10", "-0x1.8dcf37d407d81p-54"
+ROUNDED = (*map(float.fromhex, (*P, *Q, *R, *C)), 1.0, -1.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def wrong_about_rounded() -> list[str]:
+    """Return what the filter says wrong of `ROUNDED` in a window that ends just after t'."""
+    integers, _ = as_integers(ROUNDED)
+    exact = tuple(THIRDS * number for number in integers)
+    times = touching(exact)
+    assert times is not None
+    first, _ = times
+    end = math.nextafter(first[0] / first[1], math.inf)
+    row = Row("random", "window", ROUNDED, exact, low=-1.0, high=end)
+    table, found, tally = one_vertex_and_edge(), Candidates(math.inf), Tally()
+    fill(table, row)
+    straight.collect(table, 0, 1, row.low, row.high, -math.inf, found)
+    judge(row, found, math.inf, tally)
+    assert compared(first, row.high) < 0
+    return [what for what, _ in tally.wrong]
+
+
+def test_contact_just_before_the_end_of_a_window_with_all_roundings_to_one_side() -> None:
+    assert wrong_about_rounded() == []
+
+
+@pytest.mark.skipif(IS_COMPILED, reason="constants are compiled")
+@pytest.mark.parametrize("units", [2.0, 3.5])
+def test_row_with_all_roundings_to_one_side_finds_a_smaller_rounding(units: float) -> None:
+    with patch.object(straight, "K", units * U):
+        assert wrong_about_rounded() == ["a contact in the window was dropped"]
 
 
 def is_found(rows: int) -> bool:

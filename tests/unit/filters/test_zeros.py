@@ -9,6 +9,7 @@ from librt.vecs import vec
 from exactpt.filters import zeros
 from exactpt.filters.rounding import U
 from exactpt.filters.zeros import MAYBE, NONE, SURE, Vector, Zero, following
+from exactpt.kernel.numbers import QQ
 from fuzz.adversaries.zeros import PARTS
 from fuzz.power.edits import Edit
 
@@ -159,10 +160,11 @@ def test_part_that_follows_is_the_widest_that_halving_makes():
     assert following(-0.5, 0.5) == (0.0, 1.0)
 
 
-# Not among them: du left out of `orientation`. Where the vertex is on the edge, z = c u with c in
-# [0, 1], so that errors p of the vertex and q of the ends change u x z by at most |u| (p + q). The
-# term |u| dz alone covers that; at the distance R the same error of u is in R |u|. The term
-# |z| du is for the signs beside a zero.
+# Not among them: du left out of `orientation`. Errors p of the vertex and q of the ends change
+# u x z by u x (p - (1 - c) q_a - c q_b) + (q_b - q_a) x n, where z = c u + n. The foot is on the
+# edge, so c is in [0, 1], and the first term is at most |u| (p + q), which |u| dz covers. In the
+# second one |n| is 0 where the vertex is on the edge, and next to a zero at most the error by |u|:
+# 2 du dz covers that. At the distance R the same error of u is in R |u|.
 MISTAKES = {
     "vector: rho": Edit(Vector, "set", "rho + U2", "U2"),
     "vector: a way": Edit(Vector, "set", "abs(x1) + 2.0 * abs(x2)", "abs(x1)"),
@@ -200,6 +202,34 @@ def test_planted_mistake_in_zeros_is_found(mistake):
 def test_rounding_of_2_units_in_zeros_is_found():
     with patch.object(zeros, "ROUNDING", 2.0 * U):
         assert PARTS["vertices"](4000, 1).wrong
+
+
+TOUCHING_1 = [float.fromhex(f) for f in (
+    "0x1.0040449df8af1p+0", "-0x1p-53", "-0x1.002137df11d78p+1", "-0x1p-53", "0x1.00022b202b000p+0"
+)]  # fmt: skip
+"""About (s^2 - 1)^2: not positive at 1, but 4 U when it is evaluated a little before 1."""
+
+
+def test_polynomial_of_which_all_roundings_add_up_may_vanish():
+    at_1 = sum(map(QQ, TOUCHING_1))
+
+    assert QQ(TOUCHING_1[0]) > 0 >= at_1  # so it vanishes between 0 and 1
+    assert polynomial(*TOUCHING_1).find() == MAYBE
+
+
+# 4 U in place of 64 U is no mistake. Let S be the sum of the sizes of f0, ..., f4. By Horner, f(m)
+# is b0, with bk = fk + m b(k+1) and b4 = f4. Each of its 7 roundings before the last one changes it
+# by at most U |bk m^k| with k > 0. That is at most U S / 2 if b0 = 0, as bk m^k goes from 0 to it
+# and back to 0 in steps fk m^k. So f(m) is off by at most 3.5 U S. `SLACK` adds 10^-10 of |f(m)|
+# and of the spread, which covers all rounding unless f(m), g1 r, g2 r^2, ... are all less than
+# 3 10^-5 S. If they are, the errors of all of them together are at most 3.5 U S, too (the linear
+# program over f0, ..., f4 for each sign of the partial results was solved for m and r on a grid),
+# and that only where r is small and f has a slope, so that 8 U in the width of a zero cover it. At
+# a double zero b1, ..., b4 also add up to 0, and 1.75 U S is the most.
+@pytest.mark.skipif(not is_plain, reason="constants of compiled modules are in their code")
+def test_evaluation_error_of_1_unit_in_zeros_is_found():
+    with patch.object(zeros, "EVALUATION", U):
+        assert polynomial(*TOUCHING_1).find() == NONE
 
 
 def is_found():
