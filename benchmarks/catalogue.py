@@ -14,6 +14,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
     "crowds": "the first contact of crowds built from arrays and from bodies",
+    "doubles": "first contacts of straight bodies beside plain C++ doubles, the floor of run time",
     "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
     "exponents": "how run time grows, on 52 families of questions at three sizes",

@@ -17,6 +17,7 @@ from benchmarks import (
     changes,
     cliffs,
     crowds,
+    doubles,
     exponents,
     first_contact,
     kernel,
@@ -37,6 +38,7 @@ from benchmarks.__main__ import bench
 from benchmarks.catalogue import BENCHMARKS
 from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
+from benchmarks.methods.cpp import has_compiler
 from benchmarks.methods.method import Method
 from benchmarks.number_types import ARITHMETICS
 from benchmarks.planted import FAMILIES as PLANTED
@@ -390,6 +392,22 @@ def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, al
     monkeypatch.setattr(small.reference, "first_contact", lambda _: None)
     with pytest.raises(AuditError, match="disagree about two triangles"):
         small.run(results.output, small.Sizes(3, 9, 3, 4, 1), 0)
+
+
+def test_doubles_are_beside_the_floor(results):
+    doubles.run(results.output, doubles.Sizes(triangles=3, crowds={9: 2, 16: 2}, turns=1), 0)
+    rows = results.rows("doubles")
+    ways = 3 if has_compiler() else 2
+    questions = ["two triangles"] * ways + ["9 bodies"] * ways + ["16 bodies"] * ways
+    assert [row["question"] for row in rows] == questions
+    assert len({(row["question"], row["contacts"]) for row in rows}) == 3
+    assert [row["contacts"] for row in rows[:ways]] == ["3"] * ways
+
+
+def test_a_wrong_time_beside_the_floor_is_an_error(results, monkeypatch):
+    monkeypatch.setattr(doubles, "_prepare_arrays", lambda _: lambda: 1.0)
+    with pytest.raises(AuditError, match="two triangles: from arrays"):
+        doubles.run(results.output, doubles.Sizes(3, {}, 1), 0)
 
 
 def test_auto_is_beside_all_other_methods(results, alone):
