@@ -465,7 +465,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "times before 0 forgotten": Mistake(
         "The largest size of a time is taken to be that of the end of its span.",
-        Edit(straight, "meeting", "w_error * larger(low, high)", "w_error * high"),
+        Edit(straight, "meeting", "w_error * larger_size(low, high)", "w_error * high"),
     ),
     "containment at the start missed by doubles": Mistake(
         "Boundaries are compared, and what is inside them is not.",

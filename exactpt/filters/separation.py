@@ -21,21 +21,18 @@ are separated at all times; and across the longest edge of either piece, for thi
 Errors. n is any vector of doubles, so it has none. With |n| = |nx| + |ny|, S at least the size of
 any coordinate of a place, and T of any time, n . p is off by |n| times the error of a place and 2 U
 |n| S; n . (c + w t) by |n| (c_error + w_error T) and 4 U |n| (|c| + |w| T); one sum and one
-comparison of sums are left. The margin has twice the first, and K = 16 U times the sizes. A product
-that overflows separates nothing.
+comparison of sums are left. The margin has twice the first, and `ROUNDING`, 16 U, times the sizes.
+A product that overflows separates nothing.
 """
 
 from __future__ import annotations
 
-from typing import Final
-
 from mypy_extensions import i64
 
-from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
+from exactpt.filters.models import ROUNDING
+from exactpt.filters.rounding import INFINITY, SLACK, TINY
 from exactpt.filters.rows import Table
-from exactpt.filters.straight import RelativeMotion, larger, relative_motion
-
-K: Final = 16.0 * U
+from exactpt.filters.straight import RelativeMotion, larger_size, relative_motion
 
 
 def are_separated(table: Table, a: i64, b: i64, low: float, high: float) -> bool:
@@ -77,12 +74,12 @@ class Gap:
         self.b = b
         self.low = low
         self.high = high
-        times = larger(low, high)
+        times = larger_size(low, high)
         c_size, w_size = abs(motion.cx) + abs(motion.cy), abs(motion.wx) + abs(motion.wy)
         places = table.place_error[a] + table.place_error[b]
         error = places + motion.c_error + motion.w_error * times
-        size = size_of(table, a) + size_of(table, b) + c_size + w_size * times
-        self.margin = (2.0 * error + K * size) * SLACK + TINY
+        size = size_of_places(table, a) + size_of_places(table, b) + c_size + w_size * times
+        self.margin = (2.0 * error + ROUNDING * size) * SLACK + TINY
 
     def is_across(self, ux: float, uy: float) -> bool:
         """Return True if the pieces certainly have a gap across a vector during the window."""
@@ -100,10 +97,10 @@ class Gap:
         return least_a + min(begin, end) - margin > most_b
 
 
-def size_of(table: Table, k: i64) -> float:
+def size_of_places(table: Table, k: i64) -> float:
     """Return a bound of the size of all coordinates of the places of a piece."""
     left, right, bottom, top = table.box(k)
-    return max(larger(left, right), larger(bottom, top))
+    return max(larger_size(left, right), larger_size(bottom, top))
 
 
 def longest_edge(table: Table, k: i64) -> tuple[float, float]:

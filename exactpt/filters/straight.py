@@ -20,10 +20,10 @@ false for NaN: if something overflows or is unknown, the pair is a candidate, wh
 whole window.
 
 Errors. z, w, u, c0, c1, t are doubles; exact values have a prime. |z| means |zx| + |zy|, and K is
-16 U. Each line below needs at most 8 U of the terms for which it has 16 U. The rest of K, and
-`SLACK`, cover the rounding of the bounds themselves, and products of two errors of which one is U.
-`TINY` covers underflow: that of a product that is multiplied once more is in d, which is at least
-`TINY`.
+`ROUNDING`, 16 U. Each line below needs at most 8 U of the terms that it has K times. The rest of K,
+and `SLACK`, cover the rounding of the bounds themselves, and products of two errors of which one is
+U. `TINY` covers underflow: that of a product that is multiplied once more is in d, which is at
+least `TINY`.
 
 *Motion.* The table bounds the errors of coordinates of places, paths and speeds. The difference of
 two doubles is off by U of itself. So w is off by w_error = the sum of two speed errors + 2 U |w|,
@@ -69,14 +69,22 @@ from mypy_extensions import i64
 
 from exactpt.filters.boxes import strips
 from exactpt.filters.candidates import Candidates, vertex_on_edge
-from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U2, U
+from exactpt.filters.models import ROUNDING
+from exactpt.filters.rounding import INFINITY, SLACK, SMALL, TINY, U2
 from exactpt.filters.rows import FRAME, PATH_X, PATH_Y, Table
 
-K: Final = 16.0 * U
-FEW: Final[i64] = 24
+FEW_PAIRS: Final[i64] = 24
 """Number of pairs of features of two pieces up to which all of them are compared."""
-MANY: Final[i64] = 4096
+MANY_PAIRS: Final[i64] = 4096
 """Number of pairs of features above which their boxes are swept."""
+SPEED: Final[i64] = 1
+"""In a path, the number of w after that of c."""
+
+BESIDE_EDGE: Final[i64] = 0
+"""The foot of the vertex is certainly not on the edge."""
+MAYBE_ON_EDGE: Final[i64] = 1
+ON_EDGE: Final[i64] = 2
+"""The foot is certainly between the ends of the edge."""
 
 
 class RelativeMotion:
@@ -115,7 +123,7 @@ def relative_motion(table: Table, a: i64, b: i64) -> RelativeMotion:
 def relative_path(table: Table, a: i64, b: i64, axis: i64) -> tuple[float, float]:
     """Return c and w of piece a relative to piece b, along one axis."""
     frames, i, j = table.frames, FRAME * a + axis, FRAME * b + axis
-    return frames[i] - frames[j], frames[i + 1] - frames[j + 1]
+    return frames[i] - frames[j], frames[i + SPEED] - frames[j + SPEED]
 
 
 def meeting(table: Table, a: i64, b: i64, low: float, high: float) -> tuple[float, float]:
@@ -130,7 +138,7 @@ def meeting(table: Table, a: i64, b: i64, low: float, high: float) -> tuple[floa
     cy, wy = relative_path(table, a, b, PATH_Y)
     c_error = table.path_error[a] + table.path_error[b]
     w_error = table.speed_error[a] + table.speed_error[b] + U2 * (abs(wx) + abs(wy))
-    error = table.place_error[a] + table.place_error[b] + c_error + w_error * larger(low, high)
+    error = table.place_error[a] + table.place_error[b] + c_error + w_error * larger_size(low, high)
     left_a, right_a, bottom_a, top_a = table.box(a)
     left_b, right_b, bottom_b, top_b = table.box(b)
     low, high = while_between(cx, wx, left_b - right_a, right_b - left_a, error, low, high)
@@ -143,11 +151,11 @@ def while_between(
     """Return bounds of the times in [low, high] at which least <= c + w t <= most, up to an error.
 
     The first bound is larger than the second if there are none. The margin is twice the error, and
-    K times the sizes for the rounding of c, of the given differences, of two more, and of the
-    quotient; `TINY` is for its underflow. A NaN excludes no time: as the second argument of
+    `ROUNDING` times the sizes for the rounding of c, of the given differences, of two more, and of
+    the quotient; `TINY` is for its underflow. A NaN excludes no time: as the second argument of
     ``max`` or ``min`` it is ignored.
     """
-    margin = 2.0 * error + K * (abs(c) + abs(least) + abs(most)) + TINY
+    margin = 2.0 * error + ROUNDING * (abs(c) + abs(least) + abs(most)) + TINY
     least, most = (least - margin) - c, (most + margin) - c
     if w > 0.0:
         enter, leave = least / w, most / w
@@ -204,7 +212,7 @@ class Passage:
         self.a = a
         self.b = b
         errors = table.place_error[a] + table.place_error[b] + motion.c_error
-        self.d = 2.0 * errors + K * (abs(motion.cx) + abs(motion.cy)) + TINY
+        self.d = 2.0 * errors + ROUNDING * (abs(motion.cx) + abs(motion.cy)) + TINY
         self.w_size = abs(motion.wx) + abs(motion.wy)
         start = max(table.start[a], table.start[b])
         self.exist_after = max(after, start)
@@ -221,7 +229,7 @@ class Passage:
         """Add the candidates in a window."""
         self.set_window(low, min(high, found.limit))
         vertices_count, edges_count = self.table.size[self.a], self.table.edges[self.b]
-        if vertices_count * edges_count <= FEW:
+        if vertices_count * edges_count <= FEW_PAIRS:
             edge: i64 = 0
             while edge < edges_count:
                 vertex: i64 = 0
@@ -232,7 +240,7 @@ class Passage:
             return
         self.bound_displacement()
         vertices, edges = self.near_vertices(), self.near_edges()
-        if len(vertices) * len(edges) <= MANY:
+        if len(vertices) * len(edges) <= MANY_PAIRS:
             k: i64 = 0
             while k < len(edges):
                 j: i64 = 0
@@ -251,7 +259,7 @@ class Passage:
         """Set the window."""
         self.low = low
         self.high = high
-        self.times = larger(low, high)
+        self.times = larger_size(low, high)
 
     def bound_displacement(self) -> None:
         """Bound the displacement c + w t in the window."""
@@ -268,7 +276,7 @@ class Passage:
         be compared with another coordinate: rounding is monotonic, so it does not change the sign.
         """
         begin, end = c + w * self.low, c + w * self.high
-        margin = 2.0 * error + K * (abs(c) + abs(w) * self.times) + TINY
+        margin = 2.0 * error + ROUNDING * (abs(c) + abs(w) * self.times) + TINY
         return min(begin, end) - margin, max(begin, end) + margin
 
     def near_vertices(self) -> vec[i64]:
@@ -346,60 +354,85 @@ class Passage:
         """
         found.compared += 1
         high = min(self.high, found.limit)
-        table, motion = self.table, self.motion
-        xs, ys = table.xs, table.ys
-        wx, wy, w_size = motion.wx, motion.wy, self.w_size
-        d, w_error = self.d, motion.w_error
-        place, number = table.place[self.b], table.edge[self.b] + edge
-        i, j = place + table.begins[number], place + table.ends[number]
-        v = table.place[self.a] + vertex
-        ux, uy = xs[j] - xs[i], ys[j] - ys[i]
-        zx, zy = (xs[v] - xs[i]) + motion.cx, (ys[v] - ys[i]) + motion.cy
-        u_size, z_size = abs(ux) + abs(uy), abs(zx) + abs(zy)
-        if i == j:
+        p, q, end = self.places(vertex, edge)
+        xs, ys = self.table.xs, self.table.ys
+        zx, zy = (xs[p] - xs[q]) + self.motion.cx, (ys[p] - ys[q]) + self.motion.cy
+        if q == end:
             self.compare_with_point(zx, zy, vertex, edge, found)
             return
+        ux, uy = xs[end] - xs[q], ys[end] - ys[q]
 
-        left, right = ux * wy, uy * wx
-        c1 = left - right
-        e1 = K * (abs(left) + abs(right)) + d * w_size + w_error * (u_size + 2.0 * d)
-        e1 = e1 * SLACK + TINY
-        left, right = ux * zy, uy * zx
-        c0 = left - right
-        e0 = K * (abs(left) + abs(right)) + d * (u_size + z_size + 2.0 * d)
-        e0 = e0 * SLACK + TINY
-
-        slope = abs(c1) - e1
-        if not slope > SMALL:  # perhaps in parallel to the edge
-            farthest = (e0 + (abs(c1) + e1) * self.times) * SLACK + TINY
-            if not abs(c0) > farthest:
+        c1, e1 = self.slope(ux, uy)
+        c0, e0 = self.orientation(ux, uy, zx, zy)
+        least_slope = abs(c1) - e1
+        if not least_slope > SMALL:  # perhaps in parallel to the edge
+            if self.may_come_to_line(c0, e0, c1, e1):
                 features = vertex_on_edge(self.a, vertex, self.b, edge)
                 found.add(features, self.low, high, high)
             return
 
         t = -c0 / c1
-        t_size = abs(t)
-        r = (e0 + e1 * t_size) / slope * SLACK + TINY
+        r = (e0 + e1 * abs(t)) / least_slope * SLACK + TINY
         first, last = t - r, t + r
         if first > high or last < self.low:
             return
-
-        mx, my = zx + wx * t, zy + wy * t
-        m_size = abs(mx) + abs(my)
-        s = d + w_size * r + w_error * (t_size + r) + K * (z_size + w_size * t_size)
-        along, length = mx * ux + my * uy, ux * ux + uy * uy
-        bound = s * (u_size + 2.0 * d) + d * m_size + 2.0 * d * (2.0 * u_size + d)
-        bound = bound * SLACK + K * (m_size * u_size + length) + TINY
-        if along < -bound or along > length + bound:
+        foot = self.foot(ux, uy, zx, zy, t, r)
+        if foot == BESIDE_EDGE:
             return
 
-        is_on_edge = bound < along < length - bound
-        is_sure = is_on_edge and first > self.exist_after and last < self.exist_before
+        is_sure = foot == ON_EDGE and first > self.exist_after and last < self.exist_before
         if is_sure and last < found.limit:
             found.limit = last
         features = vertex_on_edge(self.a, vertex, self.b, edge)
         begin = max(self.low, first)  # in this order, a NaN is ignored
         found.add(features, begin, last, high, is_sure=is_sure)
+
+    def places(self, vertex: i64, edge: i64) -> tuple[i64, i64, i64]:
+        """Return the numbers of the places of a vertex, and of the ends of an edge."""
+        table = self.table
+        of_edges, number = table.place[self.b], table.edge[self.b] + edge
+        begin, end = of_edges + table.begins[number], of_edges + table.ends[number]
+        return table.place[self.a] + vertex, begin, end
+
+    def slope(self, ux: float, uy: float) -> tuple[float, float]:
+        """Return c1 = u x w and e1, which bounds its error."""
+        motion, d = self.motion, self.d
+        left, right = ux * motion.wy, uy * motion.wx
+        u_size = abs(ux) + abs(uy)
+        rounding = ROUNDING * (abs(left) + abs(right))
+        e1 = rounding + d * self.w_size + motion.w_error * (u_size + 2.0 * d)
+        return left - right, e1 * SLACK + TINY
+
+    def orientation(self, ux: float, uy: float, zx: float, zy: float) -> tuple[float, float]:
+        """Return c0 = u x z and e0, which bounds its error."""
+        d = self.d
+        left, right = ux * zy, uy * zx
+        u_size, z_size = abs(ux) + abs(uy), abs(zx) + abs(zy)
+        e0 = ROUNDING * (abs(left) + abs(right)) + d * (u_size + z_size + 2.0 * d)
+        return left - right, e0 * SLACK + TINY
+
+    def may_come_to_line(self, c0: float, e0: float, c1: float, e1: float) -> bool:
+        """Return False if a vertex certainly does not come to the line of an edge in the window."""
+        farthest = (e0 + (abs(c1) + e1) * self.times) * SLACK + TINY
+        return not abs(c0) > farthest
+
+    def foot(self, ux: float, uy: float, zx: float, zy: float, t: float, r: float) -> i64:
+        """Return where the foot of the vertex is at the time t', which is within r of t.
+
+        Returns:
+            `BESIDE_EDGE`, `MAYBE_ON_EDGE` or `ON_EDGE`.
+        """
+        motion, d, w_size = self.motion, self.d, self.w_size
+        mx, my = zx + motion.wx * t, zy + motion.wy * t
+        u_size, z_size, m_size = abs(ux) + abs(uy), abs(zx) + abs(zy), abs(mx) + abs(my)
+        t_size = abs(t)
+        s = d + w_size * r + motion.w_error * (t_size + r) + ROUNDING * (z_size + w_size * t_size)
+        along, length = mx * ux + my * uy, ux * ux + uy * uy
+        bound = s * (u_size + 2.0 * d) + d * m_size + 2.0 * d * (2.0 * u_size + d)
+        bound = bound * SLACK + ROUNDING * (m_size * u_size + length) + TINY
+        if along < -bound or along > length + bound:
+            return BESIDE_EDGE
+        return ON_EDGE if bound < along < length - bound else MAYBE_ON_EDGE
 
     def compare_with_point(
         self, zx: float, zy: float, vertex: i64, point: i64, found: Candidates
@@ -417,8 +450,8 @@ class Passage:
             found.add(vertex_on_edge(self.a, vertex, self.b, point), low, high, until)
 
 
-def larger(x: float, y: float) -> float:
-    """Return the larger of two absolute values."""
+def larger_size(x: float, y: float) -> float:
+    """Return the larger one of two absolute values."""
     return max(abs(x), abs(y))
 
 

@@ -28,8 +28,9 @@ through 4 operations, and the sizes of all products in all coefficients add up t
 * In a rigid piece |u| is constant, and within 2 du of |u(0)|. Otherwise |u(s)| is within
   |u1| + |u2| + 2 du of it, with |u1| the sum of the sizes in x and in y. Times R this is an error
   of f.
-* R is a sum of two radii, each off by at most 5 U of it: so R by 6 U R. With the operations that
-  follow, R |u(0)| is off by at most 9 U of it, R^2 by 14 U. Both are in a term of 16 U.
+* R is a sum of two radii, each larger by at most 2 U of it (`Table.radius`). Were they off by 5 U,
+  and R by 6 U, R |u(0)| would be off by at most 9 U of it with the operations that follow, and R^2
+  by 14 U. Both are in a term of 16 U.
 * z . z is off by at most 2 |z| dz + 2 dz^2, and by 16 U (|z|^2 + R^2) for rounding.
 
 Underflow: rho, and so dz and du, are at least `TINY`, which covers it.

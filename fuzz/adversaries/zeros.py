@@ -340,7 +340,7 @@ def orientations(rows: int, seed: int) -> Report:
 
 
 def distances(rows: int, seed: int) -> Report:
-    """Check vertices at a distance of edges: R is off by up to 5 U of it."""
+    """Check vertices at a distance of edges: R is off by up to 5 U of it, more than a table is."""
     report, rng, zero = Report(), Random(seed), Zero()
     while report.rows < rows:
         s, is_rigid = instant(rng), rng.random() < 0.6

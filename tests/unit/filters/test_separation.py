@@ -11,9 +11,9 @@ from exactpt.filters.separation import are_separated
 from fuzz.adversaries.separation import attack
 from fuzz.power.edits import Edit
 
-# Without K, and without the tests of infinite numbers, the adversary finds nothing in 10^4 pairs:
-# a touch within the rounding of three sums, in a direction that is tried, is too rare. The rows of
-# `AIMED` are for these.
+# Without `ROUNDING`, and without the tests of infinite numbers, the adversary finds nothing in 10^4
+# pairs: a touch within the rounding of three sums, in a direction that is tried, is too rare. The
+# rows of `AIMED` are for these.
 PLANTED = {
     "no margin": Edit(separation.Gap, "is_across", " + TINY", " * 0.0"),
     "no stated errors": Edit(separation.Gap, "__init__", "2.0 * error + ", ""),
@@ -68,7 +68,7 @@ OVERFLOWING = (
     (4.25 * B, -2.5 * B), (-1.5 * B, 0.0), (2.0 * B, -1.75 * B), (3.0 * B, -2.75 * B),
 )  # fmt: skip
 AIMED = {
-    "K of 1 U": (patch.object(separation, "K", 2.0**-53), ROUNDED),
+    "rounding of 1 U": (patch.object(separation, "ROUNDING", 2.0**-53), ROUNDED),
     "infinite extents": (
         Edit(separation, "extent", "not -INFINITY < along < INFINITY", "False").made(),
         OVERFLOWING,

@@ -144,7 +144,7 @@ def test_collect_of_many_features_finds_what_all_pairs_find() -> None:
     add(table, [*((x, 5.0 - y) for x, y in saw), (79.0, 6.0)], (0.25, 0.0, 0.0, 0.0))
     few = collected(table)
     assert few.compared < 2_000
-    with patch.object(straight, "FEW", 10**6) if not IS_COMPILED else ExitStack():
+    with patch.object(straight, "FEW_PAIRS", 10**6) if not IS_COMPILED else ExitStack():
         all_pairs = collected(table)
     assert len(features(few.rows())) > 150
     if not IS_COMPILED:
@@ -263,44 +263,58 @@ PLANTED = {
     ),
     "a quarter of the errors in d": Edit(PASSAGE, "__init__", "2.0 * errors", "0.5 * errors"),
     "rounding of c left out of d": Edit(
-        PASSAGE, "__init__", " + K * (abs(motion.cx) + abs(motion.cy))", ""
+        PASSAGE, "__init__", " + ROUNDING * (abs(motion.cx) + abs(motion.cy))", ""
     ),
-    "e0 without d": Edit(PASSAGE, "compare", " + d * (u_size + z_size + 2.0 * d)", ""),
-    "e0 without d |u|": Edit(PASSAGE, "compare", "d * (u_size + z_size + 2.0 * d)", "d * z_size"),
+    "e0 without d": Edit(PASSAGE, "orientation", " + d * (u_size + z_size + 2.0 * d)", ""),
+    "e0 without d |u|": Edit(
+        PASSAGE, "orientation", "d * (u_size + z_size + 2.0 * d)", "d * z_size"
+    ),
     "e0 without rounding": Edit(
-        PASSAGE, "compare", "e0 = K * (abs(left) + abs(right)) + ", "e0 = "
+        PASSAGE, "orientation", "e0 = ROUNDING * (abs(left) + abs(right)) + ", "e0 = "
     ),
-    "e1 without w_error": Edit(PASSAGE, "compare", " + w_error * (u_size + 2.0 * d)", ""),
-    "r without e0": Edit(PASSAGE, "compare", "(e0 + e1 * t_size) / slope", "e1 * t_size / slope"),
-    "r without e1": Edit(PASSAGE, "compare", "(e0 + e1 * t_size) / slope", "e0 / slope"),
-    "slope without e1": Edit(PASSAGE, "compare", "slope = abs(c1) - e1", "slope = abs(c1)"),
+    "e1 without w_error": Edit(PASSAGE, "slope", " + motion.w_error * (u_size + 2.0 * d)", ""),
+    "r without e0": Edit(
+        PASSAGE, "compare", "(e0 + e1 * abs(t)) / least_slope", "e1 * abs(t) / least_slope"
+    ),
+    "r without e1": Edit(
+        PASSAGE, "compare", "(e0 + e1 * abs(t)) / least_slope", "e0 / least_slope"
+    ),
+    "slope without e1": Edit(
+        PASSAGE, "compare", "least_slope = abs(c1) - e1", "least_slope = abs(c1)"
+    ),
     "parallel without e0": Edit(
-        PASSAGE, "compare", "(e0 + (abs(c1) + e1) * self.times)", "((abs(c1) + e1) * self.times)"
+        PASSAGE,
+        "may_come_to_line",
+        "(e0 + (abs(c1) + e1) * self.times)",
+        "((abs(c1) + e1) * self.times)",
     ),
     "parallel without e1": Edit(
-        PASSAGE, "compare", "(e0 + (abs(c1) + e1) * self.times)", "(e0 + abs(c1) * self.times)"
+        PASSAGE,
+        "may_come_to_line",
+        "(e0 + (abs(c1) + e1) * self.times)",
+        "(e0 + abs(c1) * self.times)",
     ),
-    "parallel without t": Edit(PASSAGE, "compare", "(e0 + (abs(c1) + e1) * self.times)", "e0"),
+    "parallel without t": Edit(
+        PASSAGE, "may_come_to_line", "(e0 + (abs(c1) + e1) * self.times)", "e0"
+    ),
     "parallel and unknown dropped": Edit(
-        PASSAGE, "compare", "not abs(c0) > farthest", "abs(c0) <= farthest"
+        PASSAGE, "may_come_to_line", "not abs(c0) > farthest", "abs(c0) <= farthest"
     ),
     "unknown slope taken for a slope": Edit(
-        PASSAGE, "compare", "not slope > SMALL", "slope <= SMALL"
+        PASSAGE, "compare", "not least_slope > SMALL", "least_slope <= SMALL"
     ),
     "wrong sign of t": Edit(PASSAGE, "compare", "t = -c0 / c1", "t = c0 / c1"),
     "time compared without r": Edit(
         PASSAGE, "compare", "first > high or last < self.low", "t > high or t < self.low"
     ),
-    "foot without s": Edit(PASSAGE, "compare", "bound = s * (u_size + 2.0 * d) + ", "bound = "),
-    "s without r": Edit(PASSAGE, "compare", "s = d + w_size * r", "s = d"),
-    "wrong sign at the begin of an edge": Edit(
-        PASSAGE, "compare", "along < -bound", "along < bound"
-    ),
+    "foot without s": Edit(PASSAGE, "foot", "bound = s * (u_size + 2.0 * d) + ", "bound = "),
+    "s without r": Edit(PASSAGE, "foot", "s = d + w_size * r", "s = d"),
+    "wrong sign at the begin of an edge": Edit(PASSAGE, "foot", "along < -bound", "along < bound"),
     "wrong sign at the end of an edge": Edit(
-        PASSAGE, "compare", "along > length + bound", "along > length - bound"
+        PASSAGE, "foot", "along > length + bound", "along > length - bound"
     ),
     "sure beside the edge": Edit(
-        PASSAGE, "compare", "bound < along < length - bound", "-bound < along < length + bound"
+        PASSAGE, "foot", "bound < along < length - bound", "-bound < along < length + bound"
     ),
     "sure before the start": Edit(
         PASSAGE, "compare", "first > self.exist_after", "last > self.exist_after"
@@ -312,7 +326,7 @@ PLANTED = {
     "low too late": Edit(PASSAGE, "compare", "max(self.low, first)", "max(self.low, t)"),
     "high too early": Edit(PASSAGE, "compare", "begin, last, high", "begin, t, high"),
     "edge without its end": Edit(
-        PASSAGE, "compare", "place + table.ends[number]", "place + table.begins[number]"
+        PASSAGE, "places", "of_edges + table.ends[number]", "of_edges + table.begins[number]"
     ),
     "points without d": Edit(PASSAGE, "compare_with_point", "self.d + motion", "motion"),
     "points without w_error": Edit(
@@ -345,7 +359,7 @@ PLANTED = {
     ),
     "boxes without errors": Edit(straight, "while_between", "2.0 * error + ", ""),
     "boxes without rounding": Edit(
-        straight, "while_between", " + K * (abs(c) + abs(least) + abs(most))", ""
+        straight, "while_between", " + ROUNDING * (abs(c) + abs(least) + abs(most))", ""
     ),
     "boxes without negative speeds": Edit(
         straight, "while_between", "elif w < 0.0:", "elif w == 9.0:"
@@ -388,7 +402,7 @@ def test_contact_just_before_the_end_of_a_window_with_all_roundings_to_one_side(
 @pytest.mark.skipif(IS_COMPILED, reason="constants are compiled")
 @pytest.mark.parametrize("units", [2.0, 3.5])
 def test_row_with_all_roundings_to_one_side_finds_a_smaller_rounding(units: float) -> None:
-    with patch.object(straight, "K", units * U):
+    with patch.object(straight, "ROUNDING", units * U):
         assert wrong_about_rounded() == ["a contact in the window was dropped"]
 
 
@@ -414,7 +428,9 @@ def test_adversary_of_a_planted_mistake_finds_it(name: str) -> None:
 
 
 @pytest.mark.skipif(IS_COMPILED, reason="constants are compiled")
-@pytest.mark.parametrize(("constant", "value"), [("K", 0.5 * U), ("TINY", 0.0), ("SMALL", -1.0)])
+@pytest.mark.parametrize(
+    ("constant", "value"), [("ROUNDING", 0.5 * U), ("TINY", 0.0), ("SMALL", -1.0)]
+)
 def test_adversary_of_a_wrong_constant_finds_it(constant: str, value: float) -> None:
     with patch.object(straight, constant, value):
         assert is_found(2_000)
