@@ -40,7 +40,8 @@ from mypy_extensions import i64
 from exactpt.filters.candidates import Candidates
 from exactpt.filters.error_free import Exactly
 from exactpt.filters.rounding import INFINITY, TINY, U4
-from exactpt.filters.rows import FRAME, STRAIGHT, Table
+from exactpt.filters.rows import FRAME, PATH_X, PATH_Y, STRAIGHT, Table
+from exactpt.filters.straight import SPEED
 
 BESIDE: Final[i64] = -2
 """Place of a vertex that does not come to lie on the edge, or always lies on it."""
@@ -86,11 +87,9 @@ class Entry:
 
     def find(self, table: Table, one: i64, vertex: i64, other: i64, edge: i64) -> None:
         """Find the entry of a vertex of one piece to an edge of the other one."""
-        exactly, frames, xs, ys = self.exactly, table.frames, table.xs, table.ys
-        a, b = FRAME * one, FRAME * other
-        cx, cy = exactly.minus(frames[a], frames[b]), exactly.minus(frames[a + 4], frames[b + 4])
-        wx = exactly.minus(frames[a + 1], frames[b + 1])
-        wy = exactly.minus(frames[a + 5], frames[b + 5])
+        exactly, xs, ys = self.exactly, table.xs, table.ys
+        cx, wx = self.relative_path(table, one, other, PATH_X)
+        cy, wy = self.relative_path(table, one, other, PATH_Y)
         number = table.edge[other] + edge
         begin, end = table.begins[number], table.ends[number]
         place = table.place[other]
@@ -114,6 +113,13 @@ class Entry:
         elif at_start == 0.0 and w_along < 0.0:
             self.set_time(exactly.minus(u_squared, z_along), w_along)
             self.place = end
+
+    def relative_path(self, table: Table, one: i64, other: i64, axis: i64) -> tuple[float, float]:
+        """Return c and w of one piece relative to another one, along one axis."""
+        exactly, frames = self.exactly, table.frames
+        i, j = FRAME * one + axis, FRAME * other + axis
+        c = exactly.minus(frames[i], frames[j])
+        return c, exactly.minus(frames[i + SPEED], frames[j + SPEED])
 
     def set_time(self, numerator: float, denominator: float) -> None:
         """Set the time to a quotient."""
