@@ -44,10 +44,10 @@ from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
 from exactpt.filters.rows import Table, append_box
 from exactpt.filters.windows import ROW, Y0, Window, edge_box
 
-SMALL: Final[i64] = 24
-"""Separating lines are tried up to so many pairs of a vertex and an edge."""
-FEW: Final[i64] = 256
-"""So many pairs of edges are compared one by one, more by strips."""
+FEW_FEATURE_PAIRS: Final[i64] = 24
+"""Number of pairs of a vertex and an edge up to which separating lines are tried."""
+FEW_EDGE_PAIRS: Final[i64] = 256
+"""Number of pairs of edges up to which all of them are compared; more are compared by strips."""
 
 
 def are_disjoint(kept: Filter, i: i64, j: i64, t: float) -> bool:
@@ -61,7 +61,7 @@ def are_disjoint(kept: Filter, i: i64, j: i64, t: float) -> bool:
     if distance != 0.0:
         return False
     pair, swapped = Pair(table, i, j, p, q), Pair(table, j, i, q, p)
-    is_small = table.size[i] * table.size[j] <= SMALL
+    is_small = table.size[i] * table.size[j] <= FEW_FEATURE_PAIRS
     if is_small and (pair.has_line_between() or swapped.has_line_between()):
         return True
     if pair.edges_may_meet():
@@ -114,7 +114,7 @@ class Pair:
         others = near_edges(self.table, self.j, self.q, self.p)
         n: i64 = len(edges)
         m: i64 = len(others)
-        if n * m > FEW:
+        if n * m > FEW_EDGE_PAIRS:
             return self._edges_may_meet_by_strips(edges, others)
         k: i64 = 0
         while k < n:

@@ -162,7 +162,7 @@ def test_planted_mistake_in_disjoint_pieces_is_found(mistake):
 @pytest.mark.skipif(not is_plain, reason="constants of compiled modules are in their code")
 @pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
 def test_disjoint_pieces_attacked_by_strips_have_no_common_point(kind):
-    with patch.object(starts, "FEW", 0):
+    with patch.object(starts, "FEW_EDGE_PAIRS", 0):
         found = attack(kind, 100, seed=59)
 
     assert found.wrong == 0, found.first
@@ -176,5 +176,5 @@ def is_found():
 
 def is_found_by_strips():
     """Return the same, if edges of all pieces are compared by strips."""
-    with patch.object(starts, "FEW", 0):
+    with patch.object(starts, "FEW_EDGE_PAIRS", 0):
         return is_found()
