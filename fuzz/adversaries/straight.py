@@ -59,10 +59,21 @@ def one_vertex_and_edge() -> Table:
     for place, size, edges in ((0, 1, 0), (1, 2, 1)):
         table.add_piece(
             Piece(
-                body=place, kind=STRAIGHT, start=0.0, end=1.0, place=place, size=size, edge=0,
-                edges=edges, frame=[0.0] * 24, box=NO_BOX, errors=EXACT, radius=0.0, deforms=False,
+                body=place,
+                kind=STRAIGHT,
+                start=0.0,
+                end=1.0,
+                place=place,
+                size=size,
+                edge=0,
+                edges=edges,
+                frame=[0.0] * 24,
+                box=NO_BOX,
+                errors=EXACT,
+                radius=0.0,
+                deforms=False,
             )
-        )  # fmt: skip
+        )
     return table
 
 

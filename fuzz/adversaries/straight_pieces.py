@@ -45,10 +45,20 @@ class ManyFeatures:
         place, edge = table.add_places(xs, ys), table.add_ring(size)
         box = min(xs), max(xs), min(ys), max(ys)
         piece = Piece(
-            body=table.count(), kind=STRAIGHT, start=-3.0, end=3.0, place=place, size=size,
-            edge=edge, edges=size, frame=frame, box=box, errors=self.errors, radius=0.0,
+            body=table.count(),
+            kind=STRAIGHT,
+            start=-3.0,
+            end=3.0,
+            place=place,
+            size=size,
+            edge=edge,
+            edges=size,
+            frame=frame,
+            box=box,
+            errors=self.errors,
+            radius=0.0,
             deforms=False,
-        )  # fmt: skip
+        )
         table.add_piece(piece)
 
     def numbers(self) -> list[float]:

@@ -41,10 +41,21 @@ def add(
     k = table.count()
     table.add_piece(
         Piece(
-            body=k, kind=STRAIGHT, start=start, end=end, place=place, size=n, edge=edge, edges=n,
-            frame=frame, box=box, errors=errors, radius=0.0, deforms=False,
+            body=k,
+            kind=STRAIGHT,
+            start=start,
+            end=end,
+            place=place,
+            size=n,
+            edge=edge,
+            edges=n,
+            frame=frame,
+            box=box,
+            errors=errors,
+            radius=0.0,
+            deforms=False,
         )
-    )  # fmt: skip
+    )
 
 
 def two_squares(**of_first: Any) -> Table:
