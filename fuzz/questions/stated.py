@@ -11,11 +11,15 @@ bodies overlap by E or more in the direction of every normal of an edge, they to
 these moves (see `exactpt.pair.sure`), and the result must be certain. So with convex bodies
 "certain" and "touches after each of these moves" are the same.
 
-Scenes are made with the places and the errors at hand, so nothing is read from a motion: an error
-is stated by `PosePath.with_place_error`, by the constructor, or as jumps of a curve; paths go on
-from the start in all ways that have the angle 0 there; the scene begins with the path or later; an
-error may be at one body or at both. Bodies touch, overlap by less than E, by E and by more, are
-inside each other, or are a little apart.
+Scenes are made with the places and the errors at hand: an error is stated by
+`PosePath.with_place_error`, or by the constructor; paths go on from the start in all ways that have
+the angle 0 there; the scene begins with the path or later; an error may be at one body or at both.
+Bodies touch, overlap by less than E, by E and by more, are inside each other, or are a little
+apart.
+
+One error is read from the motion. The constructor has one number for the error of fitting and the
+stated one, so what it states is the part that the fit does not need, `assumed_place_error`, not all
+of the number. (The fit needs a part even of a path at rest: the places of its pieces are rounded.)
 
 **Later**, if both bodies are moved by constant vectors of the lengths of their errors, their first
 contact is between the bounds. It is computed by `fuzz.references.true_turns`.
@@ -95,6 +99,20 @@ class Stated(NamedTuple):
         return sum(self.errors, Fraction(0))
 
 
+class Path(NamedTuple):
+    """A motion with a stated error of its place.
+
+    Attributes:
+        motion: the motion.
+        stated: the stated error.
+        is_all: whether no other error than the stated one is left at the start.
+    """
+
+    motion: PosePath | Translation
+    stated: Fraction
+    is_all: bool
+
+
 class Wrong(NamedTuple):
     """The kind of a case, and the fault of its result; None without one."""
 
@@ -119,16 +137,14 @@ def stated_case(random: Random) -> Stated:
         at = Fraction(random.randint(-2, 2), 2), Fraction(random.randint(-2, 2), 2)
     shift = Fraction(random.randint(-9, 9), 3), Fraction(random.randint(-9, 9), 7)
     places = [shift, (shift[0] + at[0], shift[1] + at[1])]
-    motions, is_all = [], True
-    for place, error in zip(places, errors, strict=True):
-        motion, is_exact = _path(random, place, error, start, end)
-        motions.append(motion)
-        is_all = is_all and is_exact
+    paths = [
+        _path(random, place, error, start, end) for place, error in zip(places, errors, strict=True)
+    ]
     radii = [radius, Fraction(0)]
     names = [first, second]
     bodies = [
-        Body(f"{i} {name}", SHAPES[name], motion, closed=name not in OPEN, radius=r)
-        for i, (name, motion, r) in enumerate(zip(names, motions, radii, strict=True))
+        Body(f"{i} {name}", SHAPES[name], path.motion, closed=name not in OPEN, radius=r)
+        for i, (name, path, r) in enumerate(zip(names, paths, radii, strict=True))
     ]
     resting = [
         Body(body.name, _moved(SHAPES[name], place), closed=name not in OPEN, radius=r)
@@ -142,9 +158,9 @@ def stated_case(random: Random) -> Stated:
     return Stated(
         Scene(bodies, time=(start, end)),
         (resting[0], resting[1]),
-        (errors[0], errors[1]),
+        (paths[0].stated, paths[1].stated),
         is_convex,
-        is_all,
+        all(path.is_all for path in paths),
     )
 
 
@@ -213,17 +229,20 @@ def _summary(found: EnclosedContact | None) -> object:
     return found and (found.low, found.high, found.pairs)
 
 
-def _path(
-    random: Random, place: Point, error: Fraction, start: Fraction, end: Fraction
-) -> tuple[PosePath | Translation, bool]:
-    """Return a motion that has a place at the start, and whether its error there is the stated one.
+def _path(random: Random, place: Point, error: Fraction, start: Fraction, end: Fraction) -> Path:
+    """Return a motion that has a place and the angle 0 at the start, and its stated error.
 
-    Its angle is 0 at the start.
+    Args:
+        random: the random choices.
+        place: the place at the start.
+        error: the error to state; 0 for a motion without one.
+        start: the start of the scene.
+        end: its end.
     """
     x, y = place
     vx, vy, turn = (Fraction(random.randint(-4, 4), 4) for _ in range(3))
     if not error:
-        return Translation([x - vx * start, vx], [y - vy * start, vy]), True
+        return Path(Translation([x - vx * start, vx], [y - vy * start, vy]), error, is_all=True)
     kind = random.choice(["rest", "moves", "turns", "bends", "before", "fitted", "constructor"])
     if kind == "rest":
         path = PosePath([start, end], [(x, y, 0)])
@@ -237,13 +256,13 @@ def _path(
     elif kind == "fitted":  # by cubics that are exact where they begin
         poses = [([x, vx, 0, 0, 1, Fraction(1, 3)], [y, vy], [0, turn])]
         path = PosePath([start, end], poses, error="1/1000", place_error="1/1000")
-        return path.with_place_error(error), False
-    elif kind == "constructor":
+        return Path(path.with_place_error(error), error, is_all=False)
+    elif kind == "constructor":  # a part of its error is that of fitting: see the module
         path = PosePath([start, end], [(x, y, [0, turn])], error="1/1000", place_error=error)
-        return path, True
+        return Path(path, path.assumed_place_error, is_all=True)
     else:
         path = PosePath([start, end], [([x, vx], [y, vy], [0, turn])], error="1/1000")
-    return path.with_place_error(error), True
+    return Path(path.with_place_error(error), error, is_all=True)
 
 
 def _beside(random: Random, first: str, second: str, gap: Fraction) -> Point:

@@ -1,6 +1,8 @@
 """Questions against their definitions: cases repeat, and what is wrong is found."""
 
+from fractions import Fraction
 from random import Random
+from unittest.mock import ANY
 
 import pytest
 import shapely
@@ -15,9 +17,11 @@ from exactpt.pair.sure import surely_meet
 from exactpt.search import enclosed
 from exactpt.search.clearance import Minimum
 from exactpt.testing.reference import overlap
+from fuzz.laws.runner import Case, Looked, look
 from fuzz.questions import by_cgal, checks, convoys
 from fuzz.questions.command import questions
 from fuzz.questions.scenes import distant_scene
+from fuzz.questions.stated import stated_case
 from fuzz.questions.tiny import touching_scene
 
 DEFINED = [name for name in checks.QUESTIONS if name != "cgal"]
@@ -93,6 +97,22 @@ def test_a_wrong_start_of_bodies_with_stated_errors_is_found(planted, bug, cases
     monkeypatch.setattr(enclosed, planted, bug)
     faults = (checks.checked("stated", 0, number).fault for number in range(cases))
     assert any(faults)
+
+
+def test_bug_error_of_a_fit_was_taken_for_a_stated_one():
+    """Squares of side 4, at (7/4 + 10^-9, 1) from each other, overlap by 9/4 - 10^-9.
+
+    A place error of 5/4 is stated. The other is 1 by the constructor, of which the fit needs more
+    than 10^-9: so less than 9/4 - 10^-9 is stated in all, and the contact is certain.
+    """
+    case = Case("enclosed/errors", "own", 7004, 52)
+
+    made = stated_case(Random(f"choices {case}"))
+
+    assert sorted(body.motion.place_error for body in made.scene.bodies) == [1, Fraction(5, 4)]
+    assert max(made.errors) == Fraction(5, 4)
+    assert 2 < made.error < Fraction(9, 4) - Fraction(1, 10**9)
+    assert look(case) == Looked(case, "certain, touching", ANY)
 
 
 def test_a_curve_whose_jumps_are_forgotten_is_found(monkeypatch):

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from exactpt import Body, PosePath, Scene, Spin, Translation, first_contact_enclosed
+from exactpt import Body, Polynomial, PosePath, Scene, Spin, Translation, first_contact_enclosed
 from exactpt.geometry.polygon import is_convex
 from exactpt.kernel.numbers import QQ
 from exactpt.pair.sure import surely_meet
@@ -119,6 +119,25 @@ def test_bug_a_stated_error_was_forgotten_at_the_start():
         assert (found.low, found.high) == (0, None)
         assert found.pairs == (("b", "wall"),)
     assert is_certain_at_start(start_of(Body("b", [(0, 0)], path), wall))
+
+
+@pytest.mark.parametrize("less, certain", [(0, True), ("1/1000000", False)])
+def test_place_error_of_the_constructor_states_what_the_fit_leaves(less, certain):
+    """A point at (1/3, 0) is inside a box, by the stated error or a little less.
+
+    The piece is at 341/1024 + t/1024 - t^2/2048, which is off by -1/3072 + t/1024 - t^2/2048. In
+    [0, 2] the Bernstein coefficients of that are -1/3072, 2/3072 and -1/3072. So 1/1536 is proved
+    to be enough for the fit, and 1 - 1/1536 of the place error is left.
+    """
+    path = PosePath([0, 2], [("1/3", 0, 0)], error="1/100", place_error=1)
+    stated = 1 - Fraction(1, 1536)
+    left = Fraction(1, 3) - stated + Fraction(less)
+
+    found = start_of(Body("point", [(0, 0)], path), Body("box", box(left, 9, -5, 5)))
+
+    assert path.pieces[1][1].x == Polynomial(["341/1024", "1/1024", "-1/2048"])
+    assert path.assumed_place_error == stated
+    assert is_certain_at_start(found) == certain
 
 
 def test_only_the_error_of_fitting_vanishes_where_the_fit_is_exact():
