@@ -347,8 +347,13 @@ class ExactQueue(EventQueue):
 
 
 def _simplest(times: list[EventTime]) -> EventTime:
-    """Of equal times, the one with the smallest polynomial: the same in every run."""
+    """Return, of equal times, the one with the smallest polynomial: the same in every run.
+
+    Of several, the first one.
+    """
     best = times[0]
+    if len(times) == 1:
+        return best
     for time in times:
         if time.exact is not None and (best.exact is None or _size(time.exact) < _size(best.exact)):
             best = time
@@ -356,7 +361,12 @@ def _simplest(times: list[EventTime]) -> EventTime:
 
 
 def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
-    return len(number.exact_polynomial), number.exact_polynomial
+    """Return the size of a polynomial: of the linear one, if the number is rational.
+
+    It is recognised as rational here, which an earlier comparison may have done or not.
+    """
+    polynomial = number.simplified().exact_polynomial
+    return len(polynomial), polynomial
 
 
 def _extended(key: vec[i32], length: i64) -> vec[i32]:

@@ -1,8 +1,13 @@
 """The state of a running tiling as JSON data, exactly, and back.
 
 Everything that influences later decisions is saved: half-edges with their handles, pending
-failures with their enclosures, and exact numbers with their current isolating intervals. A
-restored run therefore takes the same steps as the saved one would have.
+failures with their enclosures, and exact numbers. A restored run therefore takes the same steps as
+the saved one would have.
+
+A comparison refines the isolating intervals of two numbers, and may recognise them as rational. It
+may be one of a user, who compares the time of the run; and a restored queue is filled by other
+comparisons than those that the run has made. So numbers are written in a canonical form, on which
+their refinements have no influence.
 
 Rationals are texts ``"p/q"``; doubles are JSON numbers (which Python writes and reads
 exactly); exact times are ``{"polynomial", "low", "high"}``.
@@ -240,11 +245,13 @@ def counts_from_json(data: Stored) -> dict[str, int]:
 
 
 def number_to_json(number: AlgebraicNumber) -> Data:
-    """Return an algebraic number with its current isolating interval."""
+    """Return an algebraic number in a canonical form: the same, however far it is refined."""
+    number.simplified()  # in place: a rational number has another polynomial
+    low, high = number.exact_canonical_interval()
     return {
         "polynomial": [str(c) for c in number.exact_polynomial],
-        "low": str(number.exact_low),
-        "high": str(number.exact_high),
+        "low": str(low),
+        "high": str(high),
     }
 
 

@@ -93,6 +93,39 @@ def test_equal_times_are_one_batch_known_by_the_least_polynomial():
     assert time.exact.polynomial == (-2, 0, 1)
 
 
+class Halves:
+    """Resolves each time as 1/2, as a root of (2 t - 1)(t^2 + 1) or of (2 t - 1)(t^2 + 2).
+
+    Both are in (0, 3/5), of which no halves or quarters end at 1/2.
+    """
+
+    def __init__(self):
+        polynomials = [(-1, 2, -1, 2), (-2, 4, -1, 2)]
+        self.numbers = [AlgebraicNumber.root(p, 0, QQ(3, 5)) for p in polynomials]
+
+    def resolve(self, time):
+        time.exact = self.numbers[time.a]
+        time.low, time.high = 0.25, 0.75
+        return time.exact
+
+
+@pytest.mark.parametrize("kind", [EventQueue, ExactQueue])
+@pytest.mark.parametrize("known", [False, True])
+def test_which_of_equal_times_is_taken_does_not_depend_on_what_is_known(kind, known):
+    """Of 1/2, known to be rational or not, the first event is taken: both have 2 t - 1."""
+    halves = Halves()
+    if known:
+        assert all(number.compare_rational(QQ(1, 2)) == 0 for number in halves.numbers)
+    queue = kind(halves, Counters())
+    for slot, which in ((2, 0), (4, 1)):
+        queue.schedule(slot, EventTime(0.25, 0.75, which, -1, -1))
+
+    time, entries = queue.pop()
+
+    assert [slot for slot, _ in entries] == [2, 4]
+    assert (time.a, time.exact.polynomial) == (0, (-1, 2))
+
+
 def test_a_time_of_one_function_equals_itself_unresolved():
     numbers = Numbers()
     queue = EventQueue(numbers, Counters())

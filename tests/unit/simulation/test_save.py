@@ -7,12 +7,14 @@ That a restored run goes on as if nothing had happened are the laws `simulation/
 import json
 import time
 from contextlib import suppress
+from fractions import Fraction
 from pathlib import Path
 from random import Random
 
 import pytest
 
 from exactpt import (
+    AlgebraicNumber,
     Body,
     BudgetExceeded,
     ExactPTError,
@@ -20,6 +22,7 @@ from exactpt import (
     Scene,
     Simulation,
 )
+from exactpt.simulation.saved import number_to_json
 from exactpt.simulation.store import sealed
 from exactpt.testing.scenes import generate
 
@@ -36,6 +39,37 @@ def test_a_file_that_is_saved_twice_is_the_same(tmp_path):
     Simulation.restore(tmp_path / "one.json").save(tmp_path / "two.json")
 
     assert (tmp_path / "one.json").read_bytes() == (tmp_path / "two.json").read_bytes()
+
+
+@pytest.mark.parametrize("exact_only", [False, True])
+def test_bug_file_depended_on_comparisons_of_the_time_of_the_run(exact_only):
+    """A comparison refines the number of the time, which is then in the file of the run.
+
+    After four steps of these mills the time is a root of a polynomial of degree 4, 0.228...
+    """
+    untouched, compared = (
+        Simulation(generate("mills", 1), exact_only=exact_only) for _ in range(2)
+    )
+    for run in (untouched, compared):
+        for _ in range(4):
+            run.step()
+
+    middle = (compared.now.low + compared.now.high) / 2
+
+    assert compared.now != middle
+    assert (len(compared.now.polynomial), compared.now.is_rational) == (5, False)
+    assert compared.now.high - compared.now.low < untouched.now.high - untouched.now.low
+    assert compared.to_json() == untouched.to_json()
+
+
+def test_time_that_is_saved_is_the_same_whether_it_is_known_to_be_rational():
+    """(2 t - 1)(t^2 + 1), of which 1/2 is the only root: known after a comparison with 1/2."""
+    known, unknown = (AlgebraicNumber.root((-1, 2, -1, 2), 0, "2/3") for _ in range(2))
+
+    assert (known == Fraction(1, 2), unknown.is_rational) == (True, False)
+
+    rational = {"polynomial": ["-1", "2"], "low": "1/2", "high": "1/2"}
+    assert number_to_json(known) == number_to_json(unknown) == rational
 
 
 def test_bug_unused_vertices_of_a_restored_run_have_a_name(tmp_path):
