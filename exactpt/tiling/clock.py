@@ -106,7 +106,9 @@ class Clock:
     def times_just_after(self) -> Iterator[QQ]:
         """Rational times after now and before the next failure, nearer and nearer to now.
 
-        At the end of the time span they are beyond it: trajectories continue there.
+        At the end of the time span they are beyond it: trajectories continue there. The times do
+        not depend on how far comparisons have refined the number of now: a tiling that is built at
+        one of them has the same half-edges in every run.
 
         Raises:
             AuditError: if the next failure is not after now, so that no such time exists.
@@ -118,10 +120,11 @@ class Clock:
             if following.compare(now) <= 0:
                 raise AuditError("the next failure in the queue is not after the current event")
             later = rational_between(now, following)
+        low, _ = now.exact_canonical_interval()
         for k in range(MAX_TIMES):
-            width = (later - now.exact_low) * power_of_two(-(1 << k))
-            now.refine_to(width / 2)
-            yield rational_between(now, AlgebraicNumber(now.exact_high + width / 2))
+            half = (later - low) * power_of_two(-(1 << k) - 1)
+            at_least_now = low if now.is_rational else multiple_before(now, half) + half
+            yield rational_between(now, AlgebraicNumber(at_least_now + half))
 
     def end_of_piece(self, moving: MovingBody) -> EventTime | None:
         """Return the end of a body's current piece of motion; None if it is after the time span."""

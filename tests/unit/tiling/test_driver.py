@@ -2,12 +2,14 @@
 
 import ast
 from functools import partial
+from itertools import islice
 from pathlib import Path
 
 import pytest
 
-from exactpt import Body, BudgetExceeded, Scene, Translation, first_contact
+from exactpt import Body, BudgetExceeded, Scene, Simulation, Translation, first_contact
 from exactpt.kernel.budget import Budget
+from exactpt.kernel.numbers import QQ
 from exactpt.testing.scenes import generate
 from exactpt.tiling.driver import CHANGES, EVENTS, NOTHING, TIMES, Driver, Observer
 from exactpt.tiling.tiling import Tiling
@@ -156,3 +158,19 @@ def test_a_budget_of_events_holds_whoever_listens(level):
     with pytest.raises(BudgetExceeded, match="limit of events exceeded") as spent:
         driver.run(scene.end)
     assert spent.value.reached == driver.reached() > scene.start
+
+
+def test_times_just_after_now_do_not_depend_on_how_far_it_is_refined():
+    """A tiling is built anew at such a time, and has its half-edges in an order of that time."""
+    run, refined = (Simulation(generate("turning", 0), tiling="lazy") for _ in range(2))
+    irrational = 0
+    while run.step() and refined.step() and run.contact is None:
+        refined.now.refine_to(QQ(1, 10**60))
+        irrational += not run.now.is_rational
+        times, times_refined = (
+            list(islice(one.kinetic.clock.times_just_after(), 7)) for one in (run, refined)
+        )
+        assert times == times_refined
+        assert all(refined.now < t for t in times)
+
+    assert irrational > 3
