@@ -41,13 +41,13 @@ def cgal_accepts_runs(scene: Scene, random: Random) -> str:
 
 
 def old_engine_agrees(scene: Scene, random: Random) -> str:
-    """The engine of version 0.2 gives the same results, byte for byte."""
+    """The engine of version 0.2 gives the same results, byte for byte, or bounds of one time."""
     outcome = ""
     for asked in compared(scene, tilings_of(scene), random.randrange(100), old_engine()):
         if asked.is_left_out:
             continue
         outcome = asked.question
-        if asked.new != asked.old:
+        if not asked.agrees:
             kind = f"{asked.question}: {asked.new.kind}"
             raise Difference(kind, f"{asked.arguments}: {asked.new.text}, once {asked.old.text}")
     refuse_unless(outcome)

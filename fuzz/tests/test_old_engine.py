@@ -1,5 +1,6 @@
 """The old engine: a process that answers, ends, hangs or is another one; scenes left out."""
 
+import json
 import subprocess
 from pathlib import Path
 
@@ -7,8 +8,18 @@ import pytest
 from click.testing import CliRunner
 
 import exactpt
-from exactpt import Body, InputError, Scene, Translation
+from exactpt import (
+    AlgebraicNumber,
+    Body,
+    EnclosedContact,
+    InputError,
+    Scene,
+    Spin,
+    Translation,
+)
 from exactpt.errors import AuditError
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.square_root import RootBounds
 from exactpt.testing.scenes import EVERY
 from fuzz import __main__ as command
 from fuzz import commits
@@ -16,7 +27,7 @@ from fuzz.cases import LEFT_OUT, Case, Scenes, run_case
 from fuzz.changes.excerpts import scene_of
 from fuzz.old_engine import build
 from fuzz.old_engine.answers import QUESTIONS, answer_to
-from fuzz.old_engine.compare import compared
+from fuzz.old_engine.compare import Compared, compared
 from fuzz.old_engine.process import Answer, OtherEngine
 from fuzz.witnesses import OLD, WITNESSES, Difference, LeftOutError, tilings_of
 
@@ -73,6 +84,72 @@ def test_every_family_has_the_same_answers(engine):
         scene = scene_of(family, 1)
         for asked in compared(scene, tilings_of(scene), turn, engine):
             assert asked.new == asked.old, (family, asked)
+
+
+def bounds(low, high):
+    """Return the answer that an enclosed contact is between two times, or not certain (None)."""
+    upper = None if high is None else AlgebraicNumber(high)
+    found = EnclosedContact(AlgebraicNumber(low), upper, (("a", "b"),))
+    return Answer("said", json.dumps(found.to_json()))
+
+
+NO_CONTACT = Answer("said", "null")
+
+
+@pytest.mark.parametrize(
+    "new, old",
+    [
+        (bounds("3/2", 2), bounds(1, 2)),  # narrower
+        (bounds(1, 3), bounds(1, 2)),
+        (bounds(2, 3), bounds(1, 2)),  # t = 2 is possible by both
+        (bounds(1, None), bounds(1, 2)),
+        (bounds(1, 2), bounds(1, None)),
+        (NO_CONTACT, bounds(1, None)),
+    ],
+)
+def test_bounds_that_can_be_of_one_time_agree(new, old):
+    assert Compared("enclosed contact", {}, new, old, are_bounds=True).agrees
+    assert not Compared("enclosed contact", {}, new, old, are_bounds=False).agrees
+
+
+@pytest.mark.parametrize(
+    "new, old",
+    [
+        (bounds(3, 4), bounds(1, 2)),
+        (bounds(3, None), bounds(1, 2)),
+        (NO_CONTACT, bounds(1, 2)),
+        (bounds(1, 2), NO_CONTACT),
+        (bounds(1, None), NO_CONTACT),  # the old version excludes what this one does not
+        (bounds(1, 3), bounds(2, 3)),  # an earlier lower bound: bodies are displaced further
+        (Answer("refused", "no scene"), bounds(1, 2)),
+    ],
+)
+def test_bounds_of_no_common_time_or_wider_ones_are_a_difference(new, old):
+    assert not Compared("enclosed contact", {}, new, old, are_bounds=True).agrees
+
+
+def test_only_bounds_of_bodies_that_spin_are_compared_as_bounds(engine):
+    spinning = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 2), error="1/1000"))
+    scene = Scene([spinning, WALL], time=(0, 2))
+
+    asked = list(compared(scene, tilings_of(scene), None, engine))
+
+    assert {a.question for a in asked if a.are_bounds} == {"enclosed contact"}
+    assert not any(a.are_bounds for a in compared(TWO, tilings_of(TWO), None, engine))
+
+
+def test_bug_bounds_of_a_rational_arm_were_compared_as_texts(monkeypatch):
+    """The old version took 1 + 2^-24 for the arm of this tip, 1: its bound is earlier."""
+    tip = Body("tip", [(1, 0)], Spin(1, time=(0, 3), error=1))
+    question = "enclosed contact", Scene([tip, Body("post", [(0, 1)])], time=(0, 3)), {}
+    new = Answer.of(answer_to(*question))
+    arm = RootBounds(QQ(1), 1 + QQ(1, 2**24))
+    monkeypatch.setattr("exactpt.motion.displacement.root_bounds", lambda _: arm)
+    old = Answer.of(answer_to(*question))
+
+    assert new != old
+    assert Compared("enclosed contact", {}, new, old, are_bounds=True).agrees
+    assert not Compared("enclosed contact", {}, old, new, are_bounds=True).agrees
 
 
 def test_what_the_old_engine_refuses_is_left_out(engine):

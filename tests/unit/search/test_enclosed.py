@@ -1,6 +1,7 @@
 """Bounds of the first contact of bodies that turn at exactly a constant rate."""
 
 import math
+from decimal import Decimal
 from fractions import Fraction
 
 import pytest
@@ -168,6 +169,27 @@ def test_how_far_a_point_may_be_out_of_place():
         assert QQ(5, 1000) <= displacement(body, QQ(0), QQ(3)) < QQ(5001, 1000000)
     assert displacement(Body("b", [(3, 4)], Rigid([0, 1])), QQ(0), QQ(3)) == 0
     assert displacement(Body("b", [(0, 0)], spin()), QQ(0), QQ(3)) == 0
+
+
+def test_displacement_at_a_rational_distance_from_the_pivot_is_exact():
+    """The error of the angle times 5, the distance of (3, 4): a number of less than 24 bits."""
+    body = Body("b", [(3, 4)], spin("1/1024"))
+
+    assert displacement(body, QQ(0), QQ(3)) == QQ(5, 1024)
+
+
+def test_lower_bound_is_the_time_at_which_the_pieces_are_within_the_displacement():
+    """A tip at (cos a, sin a) is displaced by 1. It is at that distance from (0, 1) at sin a = 1/2.
+
+    There the angle a of the pieces is pi / 6, and the true angle may be larger by 1.
+    """
+    tip = Body("tip", [(1, 0)], spin(1))
+
+    found = bounds_of(tip, Body("post", [(0, 1)]))
+
+    ((x, y),) = tip.at(found.low, digits=30)
+    assert y == Decimal("0.5")
+    assert x == Decimal("0.866025403784438646763723170753")
 
 
 def test_when_bodies_are_sure_to_meet():
