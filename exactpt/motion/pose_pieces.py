@@ -8,6 +8,7 @@ long.) How they are found needs no proof, for `exactpt.motion.path_error` proves
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Final, final
 
@@ -27,8 +28,8 @@ from exactpt.kernel.numbers import (
 from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Rigid, SimpleMotion
 from exactpt.motion.path_error import Pose, angle_error, place_error_squared
-from exactpt.motion.spin import rounded, tangent_near, vector_near
 from exactpt.motion.turned_angle import bits_for
+from exactpt.motion.unit_vectors import Vector, rounded, tangent_near, vector_near
 
 _MOST: Final = 100_000
 DEGREE: Final = 3
@@ -38,8 +39,6 @@ _NODES: Final = (rational("3/10"), rational("7/10"))
 _STRAIGHT: Final = rational("24/25")
 """The least cosine of the angle by which a piece turns; longer pieces are slower to search."""
 _SHORTEST: Final = power_of_two(-64)
-
-Vector = tuple[QQ, QQ]
 
 
 def pieces_along(
@@ -154,11 +153,17 @@ class _Builder:
 
 
 def _rate(part: QQ, power: int) -> float:
-    """Return how much longer a piece may be, with an error that is a part of the allowed one."""
+    """Return how much longer a piece may be, with an error that is a part of the allowed one.
+
+    Args:
+        part: the error, over the allowed one; to the power of 1 or of 2.
+        power: 1 or 2.
+    """
     if not part:
         return 4.0
-    power_of_part: float = nearest_float(part) ** (-0.25 / power)
-    return power_of_part
+    # Square roots of doubles are the same on every machine; powers are not.
+    fourth_root = math.sqrt(math.sqrt(nearest_float(part)))
+    return 1 / (fourth_root if power == 1 else math.sqrt(fourth_root))
 
 
 def _next(a: QQ, end: QQ, step: QQ) -> QQ:

@@ -15,7 +15,6 @@ from typing import Final, final
 
 from exactpt.brief import call_in_brief
 from exactpt.errors import InputError
-from exactpt.kernel.arctangents import atan_bounds, pi_bounds
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import (
     QQ,
@@ -23,7 +22,6 @@ from exactpt.kernel.numbers import (
     exponent,
     floor,
     fraction,
-    nearest_float,
     power_of_two,
     rational,
     rationals,
@@ -33,15 +31,12 @@ from exactpt.kernel.numbers import (
 from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.turned_angle import bits_for, is_within
+from exactpt.motion.unit_vectors import Vector, rounded, vector_near
 
 _MOST: Final = 100_000
 _DEGREES: Final = range(1, 32, 2)
 _SHORTEST: Final = 1 / 32
 """Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""
-_COARSE: Final = 40
-"""Bits that the tangent in doubles certainly has."""
-
-Vector = tuple[QQ, QQ]
 
 
 @final
@@ -243,33 +238,3 @@ class _Turns:
             known = [rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
             self._known[duration] = known
         return known
-
-
-def vector_near(angle: QQ, error: QQ) -> Vector:
-    """Return a rational unit vector near an angle in radians, with few digits; no proof."""
-    bits = bits_for(error, QQ(0))
-    quarter = pi_bounds(bits_for(error, angle) + 8)[0] / 2
-    quarters = floor(angle / quarter + QQ(1, 2))
-    m = tangent_near((angle - quarters * quarter) / 2, bits)
-    c, s = (1 - m * m) / (1 + m * m), 2 * m / (1 + m * m)
-    for _ in range(quarters % 4):
-        c, s = -s, c
-    return c, s
-
-
-def tangent_near(angle: QQ, bits: int) -> QQ:
-    """Return a rational number near the tangent of an angle of less than pi / 4; no proof."""
-    near = math.tan(nearest_float(angle))
-    # `near` is off by less than 2^-50: it is rounded as the tangent, unless that is between two.
-    if bits <= _COARSE and abs(near * 2.0**bits % 1.0 - 0.5) > 1 / 16:
-        return rounded(rational(near), bits)
-    m = rational(near)
-    for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
-        m = rounded(m - (atan_bounds(m, bits + 8)[0] - angle) * (1 + m * m), bits + 8)
-    return rounded(m, bits)
-
-
-def rounded(value: QQ, bits: int) -> QQ:
-    """Return the multiple of 2^-bits that is nearest to a number."""
-    unit = power_of_two(bits)
-    return floor(value * unit + QQ(1, 2)) / unit
