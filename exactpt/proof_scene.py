@@ -1187,6 +1187,8 @@ class PathRecord:
         place_error: the error of the translation.
         times: where poses begin and end, one more than poses.
         poses: the poses.
+        does_rest: whether the body rests before and after the path; otherwise it does not turn
+            there.
     """
 
     pivot: Point
@@ -1194,6 +1196,7 @@ class PathRecord:
     place_error: Fraction
     times: list[Fraction]
     poses: list[Pose]
+    does_rest: bool = True
 
 
 def path_of(data: Json) -> PathRecord:
@@ -1215,9 +1218,10 @@ def path_of(data: Json) -> PathRecord:
     return PathRecord(pivot, verified, off, times, poses)
 
 
-# ---- A spin: pieces that turn by the angle omega t, but for an error. Of the angle of a piece, p +
-# 2 arctan h(t), |h| <= 1, the difference from omega t is bounded at nine times; between these it
-# changes by at most the largest slope, (2 h' - omega (1 + h^2)) / (1 + h^2), times half a step.
+# ---- A path: pieces that turn by an angle theta, but for an error; that of a spin is omega t. With
+# h and theta polynomials of the part s of a piece, the error e of the angle has the derivative w N,
+# where w = 1 / (1 + h^2) and N = 2 h' - theta' (1 + h^2). With E the primitive of N from 0 on, by
+# parts, |e(s)| <= |e(0)| + max |E| (1 + 2 max |h| max |h'|), since |w'| <= 2 |h h'|.
 
 SAMPLES = 8  # equal parts of a piece
 MAX_ANGLE_BITS = 512
@@ -1227,42 +1231,20 @@ WHOLE_PART: Bounds = (Fraction(0), Fraction(1))
 
 
 def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], spin: SpinRecord) -> bool:
-    """Return True if motions are seen to turn by omega t, from the first end to the last."""
+    """Return True if motions are seen to turn by omega t, from the first end to the last.
+
+    They follow a path of one pose, and all of them have its translation.
+    """
     turns = [motion.rigid for motion in motions if motion.rigid]
     if len(turns) < max(len(motions), 3):
         return False
-    before, *inner, after = turns
-    if degree(before.half_turn, after.half_turn) > 0:
+    pivot, x, y = turns[0].pivot, turns[0].x, turns[0].y
+    if any((turn.pivot, turn.x, turn.y) != (pivot, x, y) for turn in turns):
         return False
-    for other in turns:
-        if (other.pivot, other.x, other.y) != (before.pivot, before.x, before.y):
-            return False
-    spans = pairwise(ends)
-    return all(turns_in(turn, span, spin) for turn, span in zip(inner, spans, strict=True))
-
-
-def turns_in(turn: Turn, span: Bounds, spin: SpinRecord) -> bool:
-    """Return True if this shows it of one piece and its span."""
-    omega, error = spin.omega, spin.error
-    spend(1000 * most_words((omega,)) ** 2)
-    h, (a, b) = turn.half_turn, span
-    twice_slope = Poly([2 * c for c in h.derivative()])
-    rate = twice_slope - Poly([omega]) * (ONE + h * h)
-    between_samples = rate.bound(a, b) * (b - a) / (2 * SAMPLES)
-    bits = bits_for(error, omega * max(abs(a), abs(b)))
-    if bits > MAX_ANGLE_BITS or between_samples > error:
-        return False
-    bits += MORE_BITS
-    times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
-    halves = [h.value(t) for t in times]
-    if any(abs(half) > 1 for half in halves):
-        return False
-    low, high = angle_of(turn.orientation, bits)
-    gaps: list[Bounds] = []
-    for t, half in zip(times, halves, strict=True):
-        least, most = arctan(half, bits)
-        gaps.append((low + 2 * least - omega * t, high + 2 * most - omega * t))
-    return largest_gap(gaps, bits) + between_samples <= error
+    start, end = ends[0], ends[-1]
+    pose = Pose(*(f.along(start, start + 1) for f in (x, y, Poly([0, spin.omega]))))
+    path = PathRecord(pivot, spin.error, Fraction(0), [start, end], [pose], does_rest=False)
+    return follows(ends, motions, path)
 
 
 def largest_gap(gaps: Sequence[Bounds], bits: int) -> Fraction:
@@ -1279,12 +1261,6 @@ def bits_for(error: Fraction, angle: Fraction) -> int:
     of_error = 5 - error.numerator.bit_length() + error.denominator.bit_length()
     of_angle = floor(abs(angle)).bit_length()
     return max(8, of_error) + of_angle
-
-
-# ---- A path: pieces that turn by an angle theta, but for an error. With h and theta polynomials
-# of the part s of a piece, the error e of the angle has the derivative w N, where w = 1 / (1 + h^2)
-# and N = 2 h' - theta' (1 + h^2). With E the primitive of N from 0 on, by parts, |e(s)| <= |e(0)| +
-# max |E| (1 + 2 max |h| max |h'|), since |w'| <= 2 |h h'|.
 
 
 def follows(ends: Sequence[Fraction], motions: Sequence[Motion], path: PathRecord) -> bool:
@@ -1317,8 +1293,8 @@ def is_near(turn: Turn, span: Bounds, pose: Pose, path: PathRecord) -> bool:
     """
     if turn.pivot != path.pivot:
         return False
-    is_at_rest = degree(turn.half_turn, turn.x, turn.y) == 0
-    if span[0] == span[1] and not is_at_rest:
+    fixed = (turn.half_turn, turn.x, turn.y) if path.does_rest else (turn.half_turn,)
+    if span[0] == span[1] and degree(*fixed) > 0:
         return False
     dx = (turn.x.along(*span) - pose.x).bound(*WHOLE_PART)
     dy = (turn.y.along(*span) - pose.y).bound(*WHOLE_PART)

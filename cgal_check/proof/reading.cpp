@@ -224,7 +224,7 @@ PathRecord path_of(const Json& json) {
   const Rational assumed = given ? error_of(given) : Rational(0);
   const Rational error = exact_number(member(json, "error")) - assumed;
   const Rational off = error_of(member(json, "place_error"));
-  PathRecord record{pair(json.find("pivot"), 0, 0), poses(json), error, off};
+  PathRecord record{pair(json.find("pivot"), 0, 0), poses(json), error, off, true};
   if (sign(error) <= 0 || record.poses.empty() || !are_in_order(record.poses))
     throw NoProof("the scene has a path without errors, or whose times do not increase");
   return record;

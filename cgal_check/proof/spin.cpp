@@ -11,7 +11,7 @@ namespace {
 using Bounds = std::pair<Rational, Rational>;
 using Rationals = Poly<Rational>;
 
-constexpr int samples = 8;
+constexpr int samples = 8;  // equal parts of a piece
 constexpr long most_bits = 512;
 
 Integer floor(const Rational& q) {
@@ -135,41 +135,13 @@ long bits_for(const Rational& error, const Rational& angle) {
   return std::max(8L, small) + bit_length(floor(abs(angle)));
 }
 
-bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Rational& omega,
-             const Rational& error) {
-  const Rationals& h = turn.half_turn;
-  Rationals rate{omega};
-  trim(rate);
-  const Rationals slope = derivative(h) + derivative(h) - rate * (Rationals{1} + h * h);
-  const Rational between = bound(slope, a, b) * (b - a) / (2 * samples);
-  const Rational furthest = abs(omega) * std::max(Rational(abs(a)), Rational(abs(b)));
-  long bits = bits_for(error, furthest);
-  if (bits > most_bits || between > error) return false;
-  bits += 8;
-  const Bounds turned = angle(turn.orientation.first, turn.orientation.second, bits);
-  const Bounds half_circle = pi(bits);
-  std::vector<Bounds> differences;
-  for (int i = 0; i <= samples; ++i) {
-    const Rational t = a + (b - a) * Rational(i) / samples, at = value(h, t);
-    if (abs(at) > 1) return false;
-    const Bounds half = arc_tangent(at, bits);
-    differences.emplace_back(turned.first + 2 * half.first - omega * t,
-                             turned.second + 2 * half.second - omega * t);
-  }
-  const Integer k = floor(differences[0].first / (2 * half_circle.first) + Rational(1, 2));
-  Rational least = 2 * half_circle.first * k, most = 2 * half_circle.second * k;
-  if (least > most) std::swap(least, most);
-  return std::all_of(differences.begin(), differences.end(), [&](const Bounds& d) {
-    return std::max(Rational(d.second - least), Rational(most - d.first)) + between <= error;
-  });
-}
-
 // Whether one turn, from a to b, is near a pose.
 bool is_near(const Turn& turn, const Rational& a, const Rational& b, const Pose& pose,
              const PathRecord& record) {
   const Rational &error = record.error, &place_error = record.place_error;
   if (turn.pivot != record.pivot) return false;  // else the translations cannot be compared
-  if (a == b && std::max({turn.half_turn.size(), turn.x.size(), turn.y.size()}) > 1) return false;
+  if (a == b && turn.half_turn.size() > 1) return false;
+  if (a == b && record.does_rest && std::max(turn.x.size(), turn.y.size()) > 1) return false;
   const auto there = [&](const Rationals& f) {
     return along(f, Rational(a - pose.begin), Rational(b - pose.begin));
   };
@@ -228,13 +200,15 @@ bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
 
 bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
              const Rational& omega, const Rational& error) {
-  if (error <= 0 || turns.size() < 3) return false;
-  if (turns.front().half_turn.size() > 1 || turns.back().half_turn.size() > 1) return false;
+  if (turns.size() < 3) return false;
   for (const Turn& turn : turns)
     if (turn.pivot != turns[0].pivot || turn.x != turns[0].x || turn.y != turns[0].y) return false;
-  for (std::size_t i = 1; i + 1 < turns.size(); ++i)
-    if (!is_spin(turns[i], until[i - 1], until[i], omega, error)) return false;
-  return true;
+  const Rational &begin = until.front(), &end = until.back();
+  const auto since = [&](const Rationals& f) { return along(f, begin, Rational(begin + 1)); };
+  Rationals angle{0, omega};
+  trim(angle);
+  const Pose pose{begin, end, since(turns[0].x), since(turns[0].y), since(angle)};
+  return is_path(until, turns, {turns[0].pivot, {pose}, error, 0, false});
 }
 
 }  // namespace proof

@@ -1,4 +1,4 @@
-// Whether pieces of a motion turn by the angle omega t, but for an error.
+// Whether pieces of a motion follow a path of poses, such as a turn by omega t, but for an error.
 #pragma once
 
 #include <utility>
@@ -15,11 +15,6 @@ struct Turn {
   Poly<Rational> x, y;  // a translation after it
 };
 
-// Of turns that follow one upon the other at some times: between the first one and the last
-// one of these. True if nine samples of each piece, and a bound of the slope, show it.
-bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
-             const Rational& omega, const Rational& error);
-
 // A piece of a path: x, y and an angle in radians, of the time since it begins.
 struct Pose {
   Rational begin, end;
@@ -31,6 +26,7 @@ struct PathRecord {
   std::pair<Rational, Rational> pivot;
   std::vector<Pose> poses;
   Rational error, place_error;  // of the angle, without what is assumed of it; of the translation
+  bool does_rest;  // before and after the path; otherwise the turns there do not turn
 };
 
 // True if turns about the pivot follow a path, at rest before and after it, with at most an
@@ -40,5 +36,10 @@ struct PathRecord {
 // |h| max |h'|), since |w'| <= 2 |h h'|.
 bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
              const PathRecord& path);
+
+// True if turns, all with one translation, follow the path whose angle is omega t, from the first of
+// the times to the last, and do not turn before and after it.
+bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
+             const Rational& omega, const Rational& error);
 
 }  // namespace proof

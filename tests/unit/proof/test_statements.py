@@ -244,13 +244,11 @@ def test_bug_short_products_of_long_numbers_are_counted():
 
 def test_bug_a_long_rate_of_a_spin_is_counted():
     """2,000 such pieces took 16 seconds before the budget was used up."""
-    zero = proof_scene.Poly()
-    turn = proof_scene.Turn(
-        zero, (Fraction(1), Fraction(0)), (Fraction(0), Fraction(0)), zero, zero
-    )
+    turn = proof_scene.Motion({"rigid": {"half_turn": []}}, 0)
+    ends = [Fraction(k) for k in range(100)]
     spin = proof_scene.SpinRecord(omega=Fraction(1, 3**20000), error=Fraction(1, 3))
     with proof_scene.budget(100_000_000), pytest.raises(proof_scene.Exhausted):
-        proof_scene.turns_in(turn, (Fraction(0), Fraction(1)), spin)
+        proof_scene.turns_by(ends, [turn] * 101, spin)
 
 
 def test_bug_frames_that_are_translated_need_no_tracks_of_all_vertices(monkeypatch):
