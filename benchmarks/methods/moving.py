@@ -64,7 +64,7 @@ class Moving:
         xs: list[list[float]] = []
         ys: list[list[float]] = []
         for body in scene.bodies:
-            if any(scene.exact_start < t < scene.exact_end for t in body.exact_breakpoints):
+            if body.exact_breakpoints_between(scene.exact_start, scene.exact_end):
                 raise UnsuitableScene("motions in pieces")
             tracks = body.exact_piece_after(scene.exact_start).tracks
             if any(len(track.w) > 1 for track in tracks):

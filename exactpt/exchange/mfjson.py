@@ -453,7 +453,7 @@ def mfjson_of(scene: Scene) -> str:
 
 def _moving(scene: Scene, i: int, where: str) -> dict[str, object]:
     body = scene.bodies[i]
-    inner = [t for t in body.exact_breakpoints if scene.exact_start < t < scene.exact_end]
+    inner = body.exact_breakpoints_between(scene.exact_start, scene.exact_end)
     times = [scene.exact_start, *inner, scene.exact_end]
     if body.exact_radius:
         raise InputError(f"{where}: moving features have no radius: write a scene (.json)")

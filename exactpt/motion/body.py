@@ -28,7 +28,7 @@ from exactpt.motion.course import Course, Piece
 from exactpt.motion.motions import (
     REST,
     Motion,
-    Pieces,
+    Piecewise,
     Position,
     is_affine,
     made,
@@ -473,13 +473,59 @@ class Body:
 
     @property
     def breakpoints(self) -> tuple[Fraction, ...]:
-        """The rational times at which the formulas of the trajectories change, in order."""
+        """The rational times at which the formulas of the trajectories change, in order.
+
+        Raises:
+            InputError: if there is no end of them, as of a `Spin`; see `breakpoints_between`.
+        """
         return fractions(self.exact_breakpoints)
+
+    def breakpoints_between(self, start: Rational, end: Rational) -> tuple[Fraction, ...]:
+        """Return the times at which the formulas of the trajectories change, in order.
+
+        >>> Body("p", keyframes=[(t, [(t * t, 0)]) for t in range(9)]).breakpoints_between(2, 5)
+        (Fraction(3, 1), Fraction(4, 1))
+
+        Args:
+            start: a time; a change at it is not included.
+            end: a later time; likewise.
+
+        Raises:
+            InputError: if there are more than 100,000 of them.
+        """
+        return fractions(self.exact_breakpoints_between(rational(start), rational(end)))
 
     @property
     def exact_breakpoints(self) -> tuple[QQ, ...]:
         """`breakpoints` as rationals of GMP."""
         return self._course.breakpoints
+
+    def exact_breakpoints_between(self, start: QQ, end: QQ) -> tuple[QQ, ...]:
+        """`breakpoints_between` as rationals of GMP."""
+        return self._course.breakpoints_between(start, end)
+
+    def exact_is_breakpoint(self, t: QQ) -> bool:
+        """Return True if the formulas of the trajectories change at a time."""
+        return self._course.is_breakpoint(t)
+
+    def exact_last_breakpoint(
+        self, time: AlgebraicNumber, start: QQ, *, before: bool = False
+    ) -> QQ:
+        """Return the last time after a start, and not after a time, at which formulas change.
+
+        Args:
+            time: the time, at the start or later.
+            start: the start, which is returned if formulas do not change.
+            before: True for the last change before the time, False if one at it counts, too.
+        """
+        high = time.exact_high
+        times = [start, *self.exact_breakpoints_between(start, high)]
+        if high > start and self.exact_is_breakpoint(high):
+            times.append(high)
+        least = 1 if before else 0
+        while len(times) > 1 and time.compare_rational(times[-1]) < least:
+            times.pop()
+        return times[-1]
 
     def exact_piece_after(self, t: QQ) -> Piece:
         """Return the piece of the motion that is valid from a time on."""
@@ -518,8 +564,7 @@ class Body:
 
     def exact_tracks_just_after(self, time: AlgebraicNumber) -> tuple[Track, ...]:
         """Return the tracks of the vertices on a short interval that begins at a time."""
-        passed = [b for b in self.exact_breakpoints if time.compare_rational(b) >= 0]
-        return self.exact_piece_after(passed[-1] if passed else time.exact_low).tracks
+        return self.exact_piece_after(self.exact_last_breakpoint(time, time.exact_low)).tracks
 
     def velocity_at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
         """Return the velocities of the vertices just after a rational time, exactly."""
@@ -584,5 +629,5 @@ def _check_sorts(name: str, *given: object) -> None:
 
 
 def _check_motion(name: str, motion: object) -> None:
-    if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
+    if not (isinstance(motion, Piecewise) or hasattr(motion, "track")):
         raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")

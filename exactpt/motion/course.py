@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import final
@@ -12,7 +12,15 @@ from exactpt.errors import InputError
 from exactpt.geometry.simple import orientation_of_doubles
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, of_double, show
-from exactpt.motion.motions import Motion, Pieces, Position, Rigid, SimpleMotion, Translation
+from exactpt.motion.motions import (
+    Motion,
+    Pieces,
+    Piecewise,
+    Position,
+    Rigid,
+    SimpleMotion,
+    Translation,
+)
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
@@ -130,32 +138,66 @@ class Course:
 
     Attributes:
         motion: the motion.
-        breakpoints: the times at which the formulas of the trajectories change, in order.
 
     Raises:
         InputError: if a vertex jumps.
     """
 
-    __slots__ = ("_last", "_pieces", "_shape", "breakpoints", "motion")
+    __slots__ = ("_frames", "_last", "_pieces", "_shape", "motion")
 
     def __init__(self, shape: Shape, motion: Motion) -> None:
         self.motion = motion
         self._shape = shape
         self._pieces: dict[QQ | None, Piece] = {}
         self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
-        self.breakpoints: tuple[QQ, ...] = tuple([frame.t for frame in shape.keyframes])
+        self._frames: tuple[QQ, ...] = tuple([frame.t for frame in shape.keyframes])
         if isinstance(motion, Pieces):
-            self.breakpoints = tuple(sorted({*self.breakpoints, *motion.exact_until}))
             self._check_continuity(motion)
+
+    def breakpoints_between(self, start: QQ, end: QQ) -> tuple[QQ, ...]:
+        """Return the times at which the formulas of the trajectories change, in order.
+
+        They are between two times, not at them.
+
+        Raises:
+            InputError: if there are too many.
+        """
+        frames = self._frames[bisect_right(self._frames, start) : bisect_left(self._frames, end)]
+        motion = self.motion
+        if not isinstance(motion, Piecewise):
+            return frames
+        ends = motion.exact_breakpoints_between(start, end)
+        return tuple(sorted({*frames, *ends})) if frames else tuple(ends)
+
+    @property
+    def breakpoints(self) -> tuple[QQ, ...]:
+        """The times at which the formulas of the trajectories change, in order.
+
+        Raises:
+            InputError: if there is no end of them.
+        """
+        motion = self.motion
+        if not isinstance(motion, Piecewise):
+            return self._frames
+        return tuple(sorted({*self._frames, *motion.exact_breakpoints}))
+
+    def is_breakpoint(self, t: QQ) -> bool:
+        """Return True if the formulas of the trajectories change at a time."""
+        motion = self.motion
+        return t in self._frames or (
+            isinstance(motion, Piecewise) and motion.exact_is_breakpoint(t)
+        )
 
     def after(self, t: QQ) -> Piece:
         """Return the piece just after a rational time."""
-        ended = bisect_right(self.breakpoints, t)
-        end = self.breakpoints[ended] if ended < len(self.breakpoints) else None
+        ended = bisect_right(self._frames, t)
+        end = self._frames[ended] if ended < len(self._frames) else None
+        motion = self.motion
+        if isinstance(motion, Piecewise):
+            motion, until = motion.exact_formula_after(t)
+            if end is None or (until is not None and until < end):
+                end = until
         if end not in self._pieces:
-            motion = self.motion
-            if isinstance(motion, Pieces):
-                motion = motion.motions[bisect_right(motion.exact_until, t)]
             self._pieces[end] = Piece(self._shape, t, motion, end)
         return self._pieces[end]
 

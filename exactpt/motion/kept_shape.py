@@ -5,14 +5,12 @@ At each time it is the image of one shape by a bijection of the plane that keeps
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, show
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Rigid, SimpleMotion, Translation
-from exactpt.motion.outline import pieces_of
+from exactpt.motion.motions import Affine, Rigid, SimpleMotion, Translation, formulas_of
+from exactpt.motion.outline import pieces_during
 from exactpt.motion.shape import are_constant
 
 
@@ -37,13 +35,15 @@ def loss_of_shape(body: Body, start: QQ, end: QQ) -> str | None:
     """
     if not body.vertices or not are_constant(body.vertices):
         return "its vertices move by polynomials of their own"
-    pieces = pieces_of(body.motion)
-    ends = [start, *(end if until is None else until for _, until in pieces)]
-    for (motion, _), (since, until) in zip(pieces, pairwise(ends), strict=True):
-        first, last = max(since, start), min(until, end)
-        loss = _loss_of_motion(motion, first, last) if first < last else None
+    if all(isinstance(formula, (Translation, Rigid)) for formula in formulas_of(body.motion)):
+        return None
+    since = start
+    for motion, ends in pieces_during(body.motion, start, end):
+        until = end if ends is None else min(ends, end)
+        loss = _loss_of_motion(motion, since, until)
         if loss is not None:
             return loss
+        since = until
     return None
 
 

@@ -7,6 +7,7 @@ deforms, to the vertex's trajectory. Time is the scene's time, not time since a 
 from __future__ import annotations
 
 from abc import abstractmethod
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
@@ -256,7 +257,65 @@ class Affine(_Given):
         return call_in_brief("Affine", self.matrix, x=self.x, y=self.y)
 
 
-class Pieces(_Given):
+class Piecewise(_Given):
+    """A motion by one formula after the other: finitely many (`Pieces`), or without end (`Spin`).
+
+    There may be no first and no last piece, so whoever needs pieces asks for those of a span. A
+    piece is a function of the motion and of its place among the pieces: it is the same whatever
+    was asked before.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def exact_formulas(self) -> Sequence[SimpleMotion]:
+        """Formulas that stand for those of all pieces, which need not be made for it.
+
+        Each piece is of the same kind as one of them: of its class, about its pivot, and with
+        polynomials of its degrees.
+        """
+
+    @property
+    @abstractmethod
+    def exact_breakpoints(self) -> Sequence[QQ]:
+        """The times at which formulas change, in order.
+
+        Raises:
+            InputError: if there is no end of them.
+        """
+
+    @abstractmethod
+    def exact_breakpoints_between(self, start: QQ, end: QQ) -> Sequence[QQ]:
+        """Return the times at which formulas change, between two times, in order.
+
+        Raises:
+            InputError: if there are too many.
+        """
+
+    @abstractmethod
+    def exact_is_breakpoint(self, t: QQ) -> bool:
+        """Return True if formulas change at a time."""
+
+    @abstractmethod
+    def exact_formula_after(self, t: QQ) -> tuple[SimpleMotion, QQ | None]:
+        """Return the formula that holds just after a time, and its end; None if it has none."""
+
+    def exact_pieces_during(self, start: QQ, end: QQ) -> list[tuple[SimpleMotion, QQ | None]]:
+        """Return the formulas that hold in a span, each with its end.
+
+        The first one is valid just after the start; the last one is valid up to the end.
+        """
+        pieces = [self.exact_formula_after(start)]
+        pieces += [self.exact_formula_after(t) for t in self.exact_breakpoints_between(start, end)]
+        return pieces
+
+    def exact_assumed_errors(self) -> tuple[QQ, QQ]:
+        """Return the errors of the place and of the angle that nothing proves of a motion."""
+        return QQ(0), QQ(0)
+
+
+class Pieces(Piecewise):
     """A sequence of motions: each holds until its time, the last for all times.
 
     At the end of a piece, every vertex must have the same position under both; the body,
@@ -296,9 +355,30 @@ class Pieces(_Given):
         """The motions with their end times, None for the last: the argument of `Pieces`."""
         return tuple(zip([*self.until, None], self.motions, strict=True))
 
-    def exact_assumed_errors(self) -> tuple[QQ, QQ]:
-        """Return the errors of the place and of the angle that nothing proves of a motion."""
-        return QQ(0), QQ(0)
+    @property
+    def exact_formulas(self) -> Sequence[SimpleMotion]:
+        """See `Piecewise.exact_formulas`: all of them."""
+        return self.motions
+
+    @property
+    def exact_breakpoints(self) -> Sequence[QQ]:
+        """See `Piecewise.exact_breakpoints`."""
+        return self.exact_until
+
+    def exact_breakpoints_between(self, start: QQ, end: QQ) -> Sequence[QQ]:
+        """See `Piecewise.exact_breakpoints_between`."""
+        ends = self.exact_until
+        return ends[bisect_right(ends, start) : bisect_left(ends, end)]
+
+    def exact_is_breakpoint(self, t: QQ) -> bool:
+        """See `Piecewise.exact_is_breakpoint`."""
+        return t in self.exact_until
+
+    def exact_formula_after(self, t: QQ) -> tuple[SimpleMotion, QQ | None]:
+        """See `Piecewise.exact_formula_after`."""
+        ended = bisect_right(self.exact_until, t)
+        is_last = ended == len(self.exact_until)
+        return self.motions[ended], None if is_last else self.exact_until[ended]
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         ends = [*map(str, self.exact_until), None]
@@ -314,8 +394,13 @@ def is_affine(motion: Motion) -> bool:
 
     A motion of a caller's own class may map vertices in any way.
     """
-    formulas = motion.motions if isinstance(motion, Pieces) else (motion,)
-    return all(isinstance(formula, (Translation, Rigid, Affine)) for formula in formulas)
+    return all(isinstance(formula, (Translation, Rigid, Affine)) for formula in formulas_of(motion))
 
 
-Motion: TypeAlias = "SimpleMotion | Pieces"
+def formulas_of(motion: Motion) -> Sequence[SimpleMotion]:
+    """Return a motion by one formula, or the formulas that stand for all pieces of another one."""
+    return motion.exact_formulas if isinstance(motion, Piecewise) else (motion,)
+
+
+Motion: TypeAlias = "SimpleMotion | Piecewise"
+"""The course of a body: the trajectories of its vertices, piece by piece."""

@@ -12,7 +12,15 @@ from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.square_root import nearest_square_root
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
+from exactpt.motion.motions import (
+    Motion,
+    Pieces,
+    Piecewise,
+    Rigid,
+    SimpleMotion,
+    Translation,
+    formulas_of,
+)
 from exactpt.motion.shape import are_constant
 
 
@@ -34,21 +42,21 @@ class Outline(NamedTuple):
     high_y: float
 
 
-def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
-    """Return the motions by one formula that it consists of, each with its end."""
-    if isinstance(motion, Pieces):
-        return list(zip(motion.motions, (*motion.exact_until, None), strict=True))
+def pieces_during(motion: Motion, start: QQ, end: QQ) -> list[tuple[SimpleMotion, QQ | None]]:
+    """Return the motions by one formula that it consists of in a span, each with its end."""
+    if isinstance(motion, Piecewise):
+        return motion.exact_pieces_during(start, end)
     return [(motion, None)]
 
 
 def is_rigid(body: Body) -> bool:
     """Return True if a body surely keeps its shape: it does not deform, and translates or turns."""
-    motions = (motion for motion, _ in pieces_of(body.motion))
-    return (
-        bool(body.vertices)
-        and are_constant(body.vertices)
-        and all(isinstance(m, (Translation, Rigid)) for m in motions)
-    )
+    return bool(body.vertices) and are_constant(body.vertices) and _translates_or_turns(body.motion)
+
+
+def _translates_or_turns(motion: Motion) -> bool:
+    """Return True if all pieces of a motion are translations or rigid motions."""
+    return all(isinstance(formula, (Translation, Rigid)) for formula in formulas_of(motion))
 
 
 def reach_from(body: Body, point: tuple[QQ, QQ]) -> QQ | None:
@@ -91,7 +99,7 @@ def rest_outline(body: Body) -> Outline | None:
 
 def outline_at(body: Body, t: QQ) -> Outline | None:
     """Return an outline congruent to the body at a time: at rest if its motion is rigid."""
-    if all(isinstance(motion, (Translation, Rigid)) for motion, _ in pieces_of(body.motion)):
+    if _translates_or_turns(body.motion):
         shape = rest_outline(body)
         if shape is not None:
             return shape
@@ -241,7 +249,7 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
         return None
     firsts: list[tuple[float, float]] = []
     for body in bodies:
-        motion = pieces_of(body.motion)[0][0]
+        motion = formulas_of(body.motion)[0]
         if not isinstance(motion, Translation) or body.exact_shape.keyframes:
             return None
         x, y = _first_vertex(body)
@@ -252,7 +260,7 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
             break
     else:
         return None
-    motion, _ = pieces_of(bodies[0].motion)[0]
+    motion = formulas_of(bodies[0].motion)[0]
     assert isinstance(motion, Translation)  # noqa: S101 - seen above
     a, b = bodies[0].vertices[0]
     return a.exact_at(QQ(0)) + motion.x.exact_at(QQ(0)), b.exact_at(QQ(0)) + motion.y.exact_at(
@@ -274,9 +282,7 @@ def _first_vertex(body: Body) -> tuple[float, float]:
 
 def _is_exact(body: Body) -> bool:
     """Return True if doubles have the vertices and the first motion, a translation, exactly."""
-    near, motion = body.exact_shape.near, body.motion
-    if isinstance(motion, Pieces):
-        motion = motion.motions[0]
+    near, motion = body.exact_shape.near, formulas_of(body.motion)[0]
     return (
         isinstance(motion, Translation)
         and motion.x.exact_doubles is not None
@@ -299,10 +305,11 @@ def straight_pieces(
     are relative to an origin, if there is one, those of vertices to the first vertex. Only pieces
     with the same origin may be compared.
     """
-    motions = pieces_of(body.motion)
-    for motion, _ in motions:
+    formulas = formulas_of(body.motion)
+    for motion in formulas:
         if not isinstance(motion, Translation) or motion.x.degree > 1 or motion.y.degree > 1:
             return None
+    ends = (*body.motion.exact_until, None) if isinstance(body.motion, Pieces) else (None,)
     shape = shape or rest_outline(body)
     if shape is None:
         return None
@@ -319,6 +326,6 @@ def straight_pieces(
         shift = x - origin[0], y - origin[1]
     return [
         (Straight(body, shape, motion, edges, points, shift), end)
-        for motion, end in motions
+        for motion, end in zip(formulas, ends, strict=True)
         if isinstance(motion, Translation)
     ]

@@ -4,7 +4,7 @@ The true shape of the body differs from the modelled one by the shape error. It 
 modelled pose, turned about the image of the reference point by an angle of at most the angle error,
 then moved by at most the place error. Both are unknown, continuous functions of time. Nothing
 proves a stated error: it is assumed, and counts at every time. An error that the motion proves of
-its pieces (`exactpt.motion.path_error`, `exactpt.motion.turned_angle`) comes on top of it.
+its pieces (`exactpt.motion.path_error`) comes on top of it.
 
 A motion that turns by a formula turns about its pivot, and the angle error of the body, too: else a
 small error of the angle would stand for a large one of the place. So only a body whose motion has
@@ -20,7 +20,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, Rational, rational, rationals, show
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion
+from exactpt.motion.motions import Motion, Piecewise, Rigid, SimpleMotion, formulas_of
 
 
 @final
@@ -97,7 +97,7 @@ class StatedErrors(NamedTuple):
 
     def plus_assumed_of(self, motion: Motion) -> StatedErrors:
         """Return these errors and those that are assumed of the motion of the body."""
-        if not isinstance(motion, Pieces):
+        if not isinstance(motion, Piecewise):
             return self
         place, angle = motion.exact_assumed_errors()
         return self._replace(place=self.place + place, angle=self.angle + angle)
@@ -166,8 +166,7 @@ def pivot_of(motion: Motion) -> Point | None:
 
 def pivots_of(motion: Motion) -> list[Point]:
     """Return the points about which a motion, or a piece of it, turns: each of them once."""
-    formulas = motion.motions if isinstance(motion, Pieces) else (motion,)
-    turns = [formula for formula in formulas if isinstance(formula, Rigid)]
+    turns = [formula for formula in formulas_of(motion) if isinstance(formula, Rigid)]
     return list(dict.fromkeys(turn.exact_pivot for turn in turns))
 
 

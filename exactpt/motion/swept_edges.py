@@ -72,9 +72,7 @@ class SweptEdges:
         self.ends: Indices = np.array(ends)
         self._first: Indices = np.cumsum([0, *(body.size for body in bodies)])[:-1]
         self._changing = [
-            i
-            for i, body in enumerate(bodies)
-            if any(start < t < end for t in body.exact_breakpoints)
+            i for i, body in enumerate(bodies) if body.exact_breakpoints_between(start, end)
         ]
         self._rigid = {i for i in self._changing if is_rigid(bodies[i])}
         self._read_tracks()

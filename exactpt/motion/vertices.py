@@ -249,7 +249,7 @@ class Vertices:
         """Return True if a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or self._deforms_in_pieces(
-            body, [t for t in body.exact_breakpoints if t > start]
+            body, body.exact_breakpoints_between(start, self._end)
         )
 
     def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
@@ -264,7 +264,7 @@ class Vertices:
             body: the body with its new motion.
             t: the time from which it holds.
         """
-        starts = [t, *(later for later in body.exact_breakpoints if later > t)]
+        starts = [t, *body.exact_breakpoints_between(t, self._end)]
         is_tiled = self.bodies[i].is_tiled
         return body.has_rings and not is_tiled and self._deforms_in_pieces(body, starts)
 

@@ -77,8 +77,7 @@ def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Tr
 
 def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
     """Return the motion of a body just before a time; at the start, just after it."""
-    since = max((b for b in body.exact_breakpoints if time.compare_rational(b) > 0), default=start)
-    return body.exact_piece_after(since)
+    return body.exact_piece_after(body.exact_last_breakpoint(time, start, before=True))
 
 
 def details(

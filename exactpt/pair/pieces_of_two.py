@@ -46,7 +46,7 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
 
 def piece_pairs(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[PiecePair]:
     """Yield the pieces of two bodies, in the order of time: they cover the time span."""
-    times = {t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if start < t < end}
+    times = {t for body in (a, b) for t in body.exact_breakpoints_between(start, end)}
     begin = start
     for until in (*sorted(times), end):
         yield PiecePair(

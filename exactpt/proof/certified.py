@@ -250,7 +250,7 @@ class _Certificate:
 
     @cached_property
     def _paths(self) -> Paths:
-        return Paths(self._bodies, self._distance)
+        return Paths(self._bodies, self._distance, (self.start, self.end))
 
     @cached_property
     def _meetings(self) -> Meetings:

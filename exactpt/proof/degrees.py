@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
-from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+from exactpt.motion.motions import Affine, Rigid, Translation, formulas_of
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
@@ -24,10 +24,8 @@ def refuse_degrees(bodies: Iterable[Body]) -> None:
         InputError: if a coordinate of one of them has a degree above `MOST`.
     """
     for body in bodies:
-        motion = body.motion
-        motions = motion.motions if isinstance(motion, Pieces) else (motion,)
         of_shape = _degree_of_shape(body)
-        degree = max(_degree(of_shape, one) for one in motions)
+        degree = max(_degree(of_shape, one) for one in formulas_of(body.motion))
         if degree > MOST:
             raise InputError(
                 f"body {shorten(body.name)} has coordinates of degree {degree}: proofs are checked "

@@ -66,11 +66,7 @@ class Nodes:
 
     def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
         """Return the last breakpoint of a body not after a time, or the start of the scene."""
-        breaks = self.scene.bodies[i].exact_breakpoints
-        return max(
-            (b for b in breaks if b > self.scene.exact_start and time.compare_rational(b) >= 0),
-            default=self.scene.exact_start,
-        )
+        return self.scene.bodies[i].exact_last_breakpoint(time, self.scene.exact_start)
 
     def orientation(self, a: int, b: int, c: int, after: QQ) -> IntPoly:
         """Return the orientation of three vertices after a rational time; () if always 0."""
@@ -131,7 +127,7 @@ def rigid_until(scene: Scene) -> QQ:
 
 def _deforms_from(body: Body, start: QQ, end: QQ) -> QQ | None:
     """Return the start of the first piece that changes lengths or angles, or None."""
-    times = [start, *(b for b in body.exact_breakpoints if start < b < end)]
+    times = [start, *body.exact_breakpoints_between(start, end)]
     for t in times:
         tracks = body.exact_piece_after(t).tracks
         motion = tracks[0].motion

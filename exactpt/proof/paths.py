@@ -41,7 +41,7 @@ class Plane(NamedTuple):
 
 
 class Breaks(NamedTuple):
-    """The times at which the formulas of a body change."""
+    """The times, within a span, at which the formulas of a body change."""
 
     breaks: Sequence[Fraction]
 
@@ -56,7 +56,7 @@ class Paths:
         body_of: the body of each vertex.
         first: the number of the first vertex of each body.
         first_item: the number of the first item of each body, and the number of all.
-        breaks: the breakpoints of each body.
+        breaks: the breakpoints of each body, within the span.
         radii: the radius of each body.
         distance: a number below the distances to be certified.
         body: the body of each item.
@@ -67,9 +67,11 @@ class Paths:
         is_round: whether there is a radius or a distance.
     """
 
-    def __init__(self, bodies: Sequence[Body], distance: Fraction) -> None:
+    def __init__(
+        self, bodies: Sequence[Body], distance: Fraction, span: tuple[Fraction, Fraction]
+    ) -> None:
         self.bodies, self.distance, self.extra = bodies, distance, float(distance)
-        self.breaks = [Breaks(body.breakpoints) for body in bodies]
+        self.breaks = [Breaks(body.breakpoints_between(*span)) for body in bodies]
         self.radii = [body.radius for body in bodies]
         self.items: list[tuple[int, int, int]] = []
         self.body_of: list[int] = []

@@ -34,7 +34,7 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     and of the times at which it is. (The radii of rounded bodies are added to it.)
     """
     bodies, start, end = scene.bodies, scene.exact_start, scene.exact_end
-    if len(bodies) <= FEW and not any(body.exact_breakpoints for body in bodies):
+    if len(bodies) <= FEW and not any(b.exact_breakpoints_between(start, end) for b in bodies):
         return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
     found: dict[tuple[int, int], Spans] = {}
     rows = straight_rows(bodies, span_of(start, end), reach / 2)

@@ -60,7 +60,7 @@ class SlabBoxes:
         boxes = np.empty((SLABS, 4))
         boxes[:, ::2], boxes[:, 1::2] = np.inf, -np.inf
         start, end = self._cuts[0], self._cuts[-1]
-        inner = [t for t in body.exact_breakpoints if start < t < end]
+        inner = body.exact_breakpoints_between(start, end)
         for since, until in pairwise([start, *inner, end]):
             low, high = self._normalization.time(since)[0], self._normalization.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]

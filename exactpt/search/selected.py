@@ -171,7 +171,7 @@ class SelectedSearch:
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
     """Return True if two bodies certainly keep their places relative to each other."""
-    if any(start < t < end for t in (*a.exact_breakpoints, *b.exact_breakpoints)):
+    if a.exact_breakpoints_between(start, end) or b.exact_breakpoints_between(start, end):
         return False
     tracks = (*a.exact_piece_after(start).tracks, *b.exact_piece_after(start).tracks)
     motion = tracks[0].motion

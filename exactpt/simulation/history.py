@@ -13,8 +13,8 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction, rational, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, SimpleMotion
-from exactpt.motion.outline import pieces_of
+from exactpt.motion.motions import Motion, Pieces, SimpleMotion
+from exactpt.motion.outline import pieces_during
 from exactpt.motion.stated_errors import StatedErrors, pivots_of
 from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
@@ -214,7 +214,7 @@ def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
     pieces = [
         piece
         for (begin, plan), end in zip(plans, ends, strict=True)
-        for piece in _pieces(plan, begin, end)
+        for piece in _pieces(plan.motion, begin, end, until)
     ]
     motion = Pieces(pieces)
     whole = body.with_errors().with_motion(motion)
@@ -237,12 +237,19 @@ def _largest_errors(plans: list[Body], motion: Pieces) -> StatedErrors:
     return StatedErrors(place, angle, (inner, outer), pivot)
 
 
-def _pieces(plan: Body, begin: QQ, end: QQ | None) -> Iterator[tuple[QQ | None, SimpleMotion]]:
-    """Yield the pieces of a motion between two times (None: unbounded)."""
-    for part, until in pieces_of(plan.motion):
-        if until is not None and until <= begin:
-            continue
-        if until is None or (end is not None and until >= end):
+def _pieces(
+    motion: Motion, begin: QQ, end: QQ | None, life_end: QQ
+) -> Iterator[tuple[QQ | None, SimpleMotion]]:
+    """Yield the pieces of a motion from one time to another one.
+
+    If the end is None, it is the last motion of a body. Of pieces without end, such as those of a
+    `Spin`, that one which holds at the end of the life of the body is the last.
+    """
+    last = life_end if end is None else end
+    if end is None and isinstance(motion, Pieces):
+        last = max((last, *(t + 1 for t in motion.exact_until)))
+    for part, until in pieces_during(motion, begin, last):
+        if until is None or until >= last:
             yield end, part
             return
         yield until, part

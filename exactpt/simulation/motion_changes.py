@@ -32,7 +32,6 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
-from exactpt.motion.outline import pieces_of
 from exactpt.motion.stated_errors import NONE_STATED
 
 GRID = power_of_two(-20)
@@ -124,12 +123,17 @@ def onward(
             strict=True,
         )
     )
-    later = [
-        (_translated(m, x, y), end) for m, end in pieces_of(body.motion) if end is None or end > now
-    ]
-    if not isinstance(body.motion, Pieces):
-        return later[0][0]
-    return Pieces([(end, motion) for motion, end in later])
+    motion = body.motion
+    if not isinstance(motion, Pieces):
+        return _translated(body.exact_piece_after(now).motion, x, y)
+    ends = (*motion.exact_until, None)
+    return Pieces(
+        [
+            (end, _translated(part, x, y))
+            for end, part in zip(ends, motion.motions, strict=True)
+            if end is None or end > now
+        ]
+    )
 
 
 def continued(body: Body, motion: Motion) -> Body:
@@ -161,8 +165,7 @@ def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
     """
     if isinstance(t, AlgebraicNumber):
         t = t.simplified()
-        passed = [b for b in body.exact_breakpoints if t.compare_rational(b) >= 0]
-        near = t.exact_low if t.is_rational or not passed else passed[-1]
+        near = t.exact_low if t.is_rational else body.exact_last_breakpoint(t, t.exact_low)
         if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):
             raise InputError(
                 f"body {shorten(body.name)}: its velocity at the irrational time {float(t)!r} is "

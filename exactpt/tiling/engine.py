@@ -241,8 +241,8 @@ class Engine(Tiling):
         moving = self.vertices.bodies[i]
         if moving.until is None:
             raise AuditError(f"body {i} has no next piece")
-        changes = (
-            moving.until in moving.body.exact_breakpoints
+        changes = moving.body.exact_is_breakpoint(
+            moving.until
         )  # otherwise only the directions of its infinitesimal displacements do
         self.vertices.enter_piece(i, moving.until)
         certify_piece(self.clock, moving, i)

@@ -7,7 +7,7 @@ similarity, time by t' = a t + b, bodies and vertices by new names and numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
@@ -25,7 +25,7 @@ from exactpt import (
 )
 from exactpt.kernel.numbers import QQ, ZZ, power_of_two
 from exactpt.kernel.square_root import exact_square_root
-from exactpt.motion.motions import Motion, Position, SimpleMotion
+from exactpt.motion.motions import Position, SimpleMotion, formulas_of
 from fuzz.rings import parts_of
 
 __all__ = ["VARIANTS", "Variant", "difference", "expected_time"]
@@ -97,7 +97,13 @@ class Variant:
 
     def _body(self, body: Body, middle: QQ) -> Body:
         order = sorted(range(body.size), key=lambda i: self.vertex(body, i))
-        motion = _each(body.motion, self._motion)
+        motion = body.motion
+        if isinstance(motion, Pieces):
+            ends = [*motion.until, None]
+            parts = [(t, self._motion(m)) for t, m in zip(ends, motion.motions, strict=True)]
+            motion = Pieces(parts)
+        else:
+            motion = self._motion(formulas_of(motion)[0])
         if isinstance(motion, Pieces):
             motion = self._pieces(motion)
         elif self.cut:
@@ -188,13 +194,6 @@ class Variant:
             x=offset[0] + Polynomial([s]) - moved[0],
             y=offset[1] + Polynomial([t]) - moved[1],
         )
-
-
-def _each(motion: Motion, image: Callable[[SimpleMotion], SimpleMotion]) -> Motion:
-    if isinstance(motion, Pieces):
-        ends = [*motion.until, None]
-        return Pieces([(t, image(m)) for t, m in zip(ends, motion.motions, strict=True)])
-    return image(motion)
 
 
 def _apply(matrix: Matrix, v: Vector) -> Vector:

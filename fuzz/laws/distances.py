@@ -64,7 +64,7 @@ def _check_cover(
 def _check_changes(scene: Scene, gap: Clearance) -> None:
     """Check that a piece ends where the nearest features change, or a motion does."""
     bodies = scene.body(gap.a), scene.body(gap.b)
-    changes = {t for body in bodies for t in body.breakpoints}
+    changes = {t for body in bodies for t in body.breakpoints_between(*scene.time)}
     for before, after in pairwise(gap.pieces):
         if before.features == after.features and not any(before.end == t for t in changes):
             raise Difference("pieces", f"cut at {before.end}, where nothing changes")

@@ -112,9 +112,8 @@ class _Judge:
 
     def are_within(self, a: Body, b: Body, squared: QQ, time: AlgebraicNumber, start: QQ) -> bool:
         """Return True if two bodies are within a distance at a time."""
-        breakpoints = [t for t in (*a.exact_breakpoints, *b.exact_breakpoints) if t < time]
-        since = max(breakpoints, default=start)
-        p, q = tracks_after(a, b, max(since, start))
+        since = max(body.exact_last_breakpoint(time, start, before=True) for body in (a, b))
+        p, q = tracks_after(a, b, since)
         return is_within(_Instant(self, time), a, b, p, q, squared)
 
     def minimum(self, gap: Clearance) -> None:

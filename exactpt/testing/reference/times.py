@@ -67,7 +67,7 @@ class State(NamedTuple):
 
 def pieces(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[Piece]:
     """Yield the parts of the time span from one change of a motion to the next, in order."""
-    changes = {t for body in (a, b) for t in body.exact_breakpoints if start < t < end}
+    changes = {t for body in (a, b) for t in body.exact_breakpoints_between(start, end)}
     for begin, until in pairwise([start, *sorted(changes), end]):
         yield Piece(begin, until, *tracks_after(a, b, begin))
 
@@ -79,8 +79,8 @@ def tracks_after(a: Body, b: Body, t: QQ) -> tuple[Tracks, Tracks]:
 
 def tracks_before(body: Body, time: AlgebraicNumber, start: QQ) -> Tracks:
     """Return the trajectories just before a time; at the start of the scene just after it."""
-    passed = [t for t in body.exact_breakpoints if time.compare_rational(t) > 0]
-    return body.exact_piece_after(max(passed, default=start)).tracks
+    since = body.exact_last_breakpoint(time, start, before=True)
+    return body.exact_piece_after(since).tracks
 
 
 def roots_in(f: IntPoly, begin: QQ, until: QQ) -> list[AlgebraicNumber]:

@@ -310,8 +310,8 @@ class VerticalRules(Rules):
 
 def _is_only_translated(body: Body, t: QQ) -> bool:
     """Return True if a body keeps its shape and its directions from a time on."""
-    is_last = all(end <= t for end in body.exact_breakpoints)
-    return is_last and body.exact_piece_after(t).translation is not None
+    piece = body.exact_piece_after(t)
+    return piece.until is None and piece.translation is not None
 
 
 def _is_visited(mesh: Mesh, v: VertexId, h: HalfEdge) -> bool:

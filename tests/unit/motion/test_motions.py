@@ -372,3 +372,19 @@ def test_an_orientation_is_kept():
 def test_what_is_no_orientation(orientation):
     with pytest.raises(InputError, match="orientation"):
         Rigid([0, 1], orientation=orientation)
+
+
+QUARTERS = Pieces([*((QQ(k, 4), Rigid(0)) for k in range(1, 9)), (None, Rigid(0))])
+
+
+def test_breakpoints_in_a_span_are_those_of_the_motion_and_the_shape():
+    frames = [(0, [(0, 0), (1, 0)]), ("1/3", [(0, 0), (2, 0)])]
+    body = Body("b", keyframes=frames, motion=QUARTERS)
+
+    assert body.breakpoints_between(-1, "3/4") == (0, QQ(1, 4), QQ(1, 3), QQ(1, 2))
+    assert body.breakpoints_between(0, "1/4") == ()
+    assert [body.exact_is_breakpoint(QQ(n, 12)) for n in (0, 1, 3, 4, 5, 6)] == [
+        True, False, True, True, False, True,
+    ]  # fmt: skip
+    assert body.exact_piece_after(QQ(1, 4)).until == QQ(1, 3)
+    assert body.exact_piece_after(QQ(1, 3)).until == QQ(1, 2)

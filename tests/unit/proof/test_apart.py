@@ -76,7 +76,7 @@ def test_items_are_numbered_alike():
             continue
         read = proof_scene.Scene(exactpt.proof.emit.scene_bytes(scene).decode())
         items = [(i, *d) for i, b in enumerate(read.bodies) for d in b.edges or [(b.first,) * 2]]
-        assert Paths(scene.bodies, Fraction(0)).items == items
+        assert Paths(scene.bodies, Fraction(0), scene.time).items == items
 
 
 def test_a_contact_is_enclosed_within_a_millionth():

@@ -31,7 +31,7 @@ def scenes():
 
 
 def frame_of(scene, distance=Fraction(0)):
-    paths = Paths(scene.bodies, distance)
+    paths = Paths(scene.bodies, distance, scene.time)
     start, end = Fraction(scene.start), Fraction(scene.end)
     return paths, Frame(paths, np.arange(len(paths.items)), start, (start + end) / 2)
 
