@@ -306,10 +306,7 @@ def _big_gear(vertices: int) -> Ask:
 
 def _spinners(n: int) -> Ask:
     def made() -> object:
-        bodies = [
-            Body(f"s{i}", _ngon(4, 3 * i, 0, 1), Spin(1, time=(0, 10), error="1/1000"))
-            for i in range(n)
-        ]
+        bodies = [Body(f"s{i}", _ngon(4, 3 * i, 0, 1), Spin(1, error="1/1000")) for i in range(n)]
         return first_contact(Scene(bodies, time=(0, 10)))
 
     return made

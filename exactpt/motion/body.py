@@ -483,8 +483,9 @@ class Body:
     def breakpoints_between(self, start: Rational, end: Rational) -> tuple[Fraction, ...]:
         """Return the times at which the formulas of the trajectories change, in order.
 
-        >>> Body("p", keyframes=[(t, [(t * t, 0)]) for t in range(9)]).breakpoints_between(2, 5)
-        (Fraction(3, 1), Fraction(4, 1))
+        >>> from exactpt import Spin
+        >>> Body("blade", [(0, 0), (1, 0)], Spin(1)).breakpoints_between(0, 1)
+        (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 
         Args:
             start: a time; a change at it is not included.

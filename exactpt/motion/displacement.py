@@ -1,11 +1,11 @@
 """How far a body may be from where its rational pieces put it.
 
-Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the true one (before the
-span and after it, that at its start and at its end). About the pivot, a point at a distance r from
-it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r |a - a'| apart; the translation
-that follows is the same. The distance from the pivot is convex, so on an edge it is largest at a
-vertex. The pieces of a `PosePath` turn about its pivot likewise; their translation has an error of
-its own, and the two errors add up. The pieces of a `Spline` are translated, with an error.
+Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the true one. About the
+pivot, a point at a distance r from it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r
+|a - a'| apart; the translation that follows is the same. The distance from the pivot is convex, so
+on an edge it is largest at a vertex. The pieces of a `PosePath` turn about its pivot likewise;
+their translation has an error of its own, and the two errors add up. The pieces of a `Spline` are
+translated, with an error.
 
 **At one time**, a body may be known better. Of an error, a part may be proved: that of fitting
 rational pieces to the given formula. It is 0 where the formula itself is rational. The rest is
@@ -28,7 +28,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.square_root import root_bounds
 from exactpt.motion.body import Body
 from exactpt.motion.local_time import Spline
-from exactpt.motion.motions import Motion, Pieces, Rigid, Translation
+from exactpt.motion.motions import Motion, Piecewise, Translation
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.motion.turned_angle import bound_on
@@ -76,7 +76,7 @@ def has_assumed_error(motion: Motion) -> bool:
     >>> has_assumed_error(path), has_assumed_error(path.with_place_error("1/10"))
     (False, True)
     """
-    return isinstance(motion, Pieces) and any(motion.exact_assumed_errors())
+    return isinstance(motion, Piecewise) and any(motion.exact_assumed_errors())
 
 
 def placed_at(body: Body, t: QQ, displacement: QQ) -> Placed:
@@ -105,18 +105,13 @@ def _unturned(motion: Motion, t: QQ) -> Translation | None:
         x, y, angle = motion.exact_pose(t)
         return None if angle else Translation([x], [y])
     if isinstance(motion, Spin):
-        turning_since_0 = min(max(t, motion.exact_until[0]), motion.exact_until[-1])
-        if motion.exact_omega * turning_since_0:
-            return None
-        turn = next(turn for turn in motion.motions if isinstance(turn, Rigid))
-        return Translation(turn.x, turn.y)
+        return None if motion.exact_omega * t else Translation(motion.x, motion.y)
     return None
 
 
-def _longest_arm(body: Body, turning: Pieces, start: QQ, end: QQ) -> QQ:
+def _longest_arm(body: Body, turning: Spin | PosePath, start: QQ, end: QQ) -> QQ:
     """Return a bound on the distance of points of a body from the pivot of its motion."""
-    pivot = next(turn.exact_pivot for turn in turning.motions if isinstance(turn, Rigid))
-    return root_bounds(max(_squared_arms(body, pivot, start, end))).high
+    return root_bounds(max(_squared_arms(body, turning.exact_pivot, start, end))).high
 
 
 def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:

@@ -31,7 +31,8 @@ from exactpt.motion.path_error import Pose, angle_error, place_error_squared
 from exactpt.motion.turned_angle import bits_for
 from exactpt.motion.unit_vectors import Vector, rounded, tangent_near, vector_near
 
-_MOST: Final = 100_000
+MOST: Final = 100_000
+"""The largest number of pieces of a path, or of a `Spin` in a span."""
 DEGREE: Final = 3
 """Of half turns, and of translations at most."""
 _NODES: Final = (rational("3/10"), rational("7/10"))
@@ -55,15 +56,25 @@ def pieces_along(
     Raises:
         InputError: if the error is too small, or more than 100,000 pieces are needed.
     """
-    return _Builder(error, place_error, pivot).along(spans)
+    return PieceMaker(error, place_error, pivot, vector_error=error).along(spans)
 
 
 @final
-class _Builder:
-    """Pieces along a path, each proved to be within the errors."""
+class PieceMaker:
+    """Makes pieces along a path, each proved to be within the errors.
 
-    def __init__(self, error: QQ, place_error: QQ, pivot: Point) -> None:
+    A piece is a function of the arguments of this class and of `piece` alone.
+
+    Args:
+        error: the largest error of the angle, in radians.
+        place_error: the largest error of the translation; 0 to take x and y as they are.
+        pivot: the point about which the pieces turn.
+        vector_error: the error for `vector_near` of the unit vectors at the ends of pieces.
+    """
+
+    def __init__(self, error: QQ, place_error: QQ, pivot: Point, *, vector_error: QQ) -> None:
         self._error, self._place_error, self._pivot = error, place_error, pivot
+        self._vector_error = vector_error
         self._bits = bits_for(error, QQ(0)) + 2
         self._place_bits = bits_for(place_error, QQ(0)) + 2 if place_error else 0
         self._vectors: dict[QQ, Vector] = {}
@@ -79,7 +90,7 @@ class _Builder:
             while a < end:
                 check_budget()
                 b = _next(a, end, step)
-                turn, rate = self._piece(a, b, pose)
+                turn, rate = self.piece(a, b, pose)
                 if turn is None:
                     step = (b - a) * rational(round(min(0.8, max(0.05, 0.9 * rate)), 3))
                     if step < (end - a) * _SHORTEST:
@@ -88,19 +99,19 @@ class _Builder:
                 step = (b - a) * rational(round(min(2.0, max(0.5, 0.93 * rate)), 3))
                 pieces.append((b, turn))
                 a = b
-                if len(pieces) + (end - a) / (8 * step) > _MOST:  # at an eighth of this rate, too
+                if len(pieces) + (end - a) / (8 * step) > MOST:  # at an eighth of this rate, too
                     raise InputError(self._too_many())
         return [*pieces, (None, self._rest(spans[-1][1], spans[-1][2]))]
 
     def _too_many(self) -> str:
         return (
-            f"more than {_MOST} pieces are needed for an error of {nearest_float(self._error):.6g}"
+            f"more than {MOST} pieces are needed for an error of {nearest_float(self._error):.6g}"
         )
 
-    def _vector(self, t: QQ, angle: Polynomial) -> Vector:
+    def vector(self, t: QQ, angle: Polynomial) -> Vector:
         """Return the orientation at a time: the same for both pieces that end or begin at it."""
         if t not in self._vectors:
-            self._vectors[t] = vector_near(angle.exact_at(t), self._error)
+            self._vectors[t] = vector_near(angle.exact_at(t), self._vector_error)
         return self._vectors[t]
 
     def _rest(self, t: QQ, pose: Pose) -> Rigid:
@@ -110,16 +121,16 @@ class _Builder:
             pivot=self._pivot,
             x=self._place(x.exact_at(t)),
             y=self._place(y.exact_at(t)),
-            orientation=self._vector(t, angle),
+            orientation=self.vector(t, angle),
         )
 
     def _place(self, c: QQ) -> QQ:
         return rounded(c, self._place_bits) if self._place_error else c
 
-    def _piece(self, a: QQ, b: QQ, pose: Pose) -> tuple[Rigid | None, float]:
+    def piece(self, a: QQ, b: QQ, pose: Pose) -> tuple[Rigid | None, float]:
         """Return a piece, None if it is not within the errors; and by how much it may be longer."""
         x, y, angle = pose
-        u, v = self._vector(a, angle), self._vector(b, angle)
+        u, v = self.vector(a, angle), self.vector(b, angle)
         cos = u[0] * v[0] + u[1] * v[1]
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + cos) if cos >= _STRAIGHT else QQ(2)
         local = Polynomial([a, b - a])

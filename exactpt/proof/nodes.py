@@ -18,6 +18,7 @@ from exactpt.kernel.integer_polynomial import (
 )
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
+from exactpt.motion.spin import Spin
 from exactpt.motion.track import difference, orientation_polynomial
 
 if TYPE_CHECKING:
@@ -82,9 +83,20 @@ class Nodes:
         return difference(p.x, p.w, q.x, q.w)
 
     def breaks(self, vertices: tuple[int, ...]) -> list[QQ]:
-        """Return the breakpoints of some vertices, in order."""
-        bodies = {self.body_of[v] for v in vertices}
-        return sorted({b for i in bodies for b in self.scene.bodies[i].exact_breakpoints})
+        """Return breakpoints of some vertices, in order.
+
+        Between two of them the formulas in a file do not change.
+        """
+        times: set[QQ] = set()
+        for i in {self.body_of[v] for v in vertices}:
+            body = self.scene.bodies[i]
+            if isinstance(body.motion, Spin):
+                # A file has the pieces that cover the span: others begin beyond its ends.
+                span = self.scene.exact_start, self.scene.exact_end
+                times.update(span, body.exact_breakpoints_between(*span))
+            else:
+                times.update(body.exact_breakpoints)
+        return sorted(times)
 
     def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
         """Return the time at which a new angle vanishes or ceases to be flat; None if never.

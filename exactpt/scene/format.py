@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.files import read_text
@@ -41,6 +41,8 @@ from exactpt.scene.units import Units, read_units
 
 _RECORDS: Final = ("spin", "path", "spline")
 """The records that may stand beside the pieces of a motion, one at most."""
+Span: TypeAlias = tuple[QQ, QQ]
+"""The start and the end of a scene."""
 _ERRORS: Final = ("place_error", "angle_error", "shape_error", "pivot")
 """The keys of a body that state errors of it."""
 _CONVERT: Final = "exactpt convert makes a scene of such a file"
@@ -108,8 +110,8 @@ def _scene(data: Json) -> Scene:
             f'"exactpt": this version reads format {VERSION}, not {shown(top["exactpt"])}'
         )
     span = a_list(top["time"], '"time"', length=2)
-    time = [exact_number(span[0], '"time"[0]'), exact_number(span[1], '"time"[1]')]
-    bodies = [_body(b, i) for i, b in enumerate(a_list(top["bodies"], '"bodies"'))]
+    time = exact_number(span[0], '"time"[0]'), exact_number(span[1], '"time"[1]')
+    bodies = [_body(b, i, time) for i, b in enumerate(a_list(top["bodies"], '"bodies"'))]
     return Scene(bodies, time, ignoring=_groups(top), units=_units(top), epoch=_epoch(top))
 
 
@@ -150,7 +152,7 @@ def _check_plain_text(data: Json, where: str) -> None:
         raise InputError(f"{where}: not a text, got {shown(data)}")
 
 
-def _body(data: Json, index: int) -> Body:
+def _body(data: Json, index: int, span: Span) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
@@ -177,7 +179,7 @@ def _body(data: Json, index: int) -> Body:
     closed = body.get("closed", True)
     if not isinstance(closed, bool):
         raise InputError(f'{where}: "closed": not true or false: {shown(closed)}')
-    motion = _motion(body["motion"], f'{where}: "motion"') if "motion" in body else REST
+    motion = _motion(body["motion"], f'{where}: "motion"', span) if "motion" in body else REST
     radius = _radius(body["radius"], f'{where}: "radius"') if "radius" in body else QQ(0)
     more = properties_in(body.get("properties", {}), f'{where}: "properties"')
     errors = _stated_errors(body, where)
@@ -291,7 +293,8 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
     return frames
 
 
-def _motion(data: Json, where: str) -> Motion:
+def _motion(data: Json, where: str, span: Span) -> Motion:
+    """Return a motion of a body in a scene with this time span."""
     if isinstance(data, dict) and "pieces" in data:
         an_object(data, where, required=["pieces"], optional={*_RECORDS})
         if len(given := [key for key in _RECORDS if key in data]) > 1:
@@ -314,9 +317,9 @@ def _motion(data: Json, where: str) -> Motion:
 
                 return PosePath.of_pieces(pieces, *path)
             if spin:
-                from exactpt.motion.spin import Spin
+                from exactpt.motion.spin import spin_of_pieces
 
-                turning = Spin.of_pieces(pieces, *spin)
+                turning = spin_of_pieces(pieces, *spin, span)
                 _check_pivot(turning.pivot, data["spin"])
                 return turning
             if off is not None:

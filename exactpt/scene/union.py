@@ -13,6 +13,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.motion.motions import REST, Motion, is_affine
 from exactpt.motion.shape import are_constant, listed
+from exactpt.motion.spin import Spin
 from exactpt.motion.stated_errors import StatedErrors
 from exactpt.motion.track import Track, difference
 from exactpt.scene.scene import Scene
@@ -181,6 +182,8 @@ def _check_error(bodies: Sequence[Body]) -> None:
 
 def _is_at_rest(body: Body) -> bool:
     """Return True if no vertex ever moves."""
+    if isinstance(body.motion, Spin) and body.motion.exact_omega:
+        return False
     pieces = [body.exact_piece_after(t) for t in (QQ(0), *body.exact_breakpoints)]
     coordinates = [f for piece in pieces for p in piece.tracks for f in (p.x, p.y, p.w)]
     return all(len(f) <= 1 for f in coordinates)

@@ -54,6 +54,8 @@ def _coefficients(f: Polynomial) -> list[str]:
 def to_json(scene: Scene) -> dict[str, object]:
     """Return the scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
 
+    Of a `Spin` it has the pieces that cover the time span.
+
     Raises:
         InputError: if it has a number or a custom motion that files cannot hold.
     """
@@ -62,7 +64,8 @@ def to_json(scene: Scene) -> dict[str, object]:
         "time": [_text(scene.exact_start), _text(scene.exact_end)],
     }
     data |= _units_to_json(scene)
-    data["bodies"] = [_named_body_to_json(body) for body in scene.bodies]
+    span = scene.exact_start, scene.exact_end
+    data["bodies"] = [_named_body_to_json(body, span) for body in scene.bodies]
     data |= _groups_to_json(scene)
     return data
 
@@ -81,14 +84,14 @@ def _groups_to_json(scene: Scene) -> dict[str, object]:
     return {"ignoring": [list(group) for group in scene.ignoring]} if scene.ignoring else {}
 
 
-def _named_body_to_json(body: Body) -> dict[str, object]:
+def _named_body_to_json(body: Body, span: tuple[QQ, QQ]) -> dict[str, object]:
     try:
-        return _body_to_json(body)
+        return _body_to_json(body, span)
     except InputError as error:
         raise InputError(f"body {shorten(body.name)}: {error}") from None
 
 
-def _body_to_json(body: Body) -> dict[str, object]:
+def _body_to_json(body: Body, span: tuple[QQ, QQ]) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
@@ -105,7 +108,7 @@ def _body_to_json(body: Body) -> dict[str, object]:
     else:
         data |= _part_to_json(body, body.parts[0])
     if body.motion != REST:
-        data["motion"] = _motion_to_json(body.motion)
+        data["motion"] = _motion_to_json(body.motion, span)
     if body.properties:
         data["properties"] = json_properties(body)
     return data
@@ -148,20 +151,17 @@ def _vertex_to_json(vertex: Position) -> object:
     return [*x, *y] if len(x) == len(y) == 1 else {"x": x, "y": y}
 
 
-def _motion_to_json(motion: Motion) -> dict[str, object]:
+def _motion_to_json(motion: Motion, span: tuple[QQ, QQ]) -> dict[str, object]:
+    if isinstance(motion, Spin):
+        return {**_motion_to_json(motion.pieces_during(*span), span), "spin": _spin_to_json(motion)}
     if isinstance(motion, Pieces):
         ends = [{"until": _text(t)} for t in motion.exact_until]
         pieces: dict[str, object] = {
             "pieces": [
-                {**end, "motion": _motion_to_json(m)}
+                {**end, "motion": _motion_to_json(m, span)}
                 for end, m in zip([*ends, {}], motion.motions, strict=True)
             ]
         }
-        if isinstance(motion, Spin):
-            pieces["spin"] = {
-                "omega": _text(motion.exact_omega),
-                "error": _text(motion.exact_error),
-            }
         if isinstance(motion, PosePath):
             pieces["path"] = _path_to_json(motion)
         if isinstance(motion, Spline):
@@ -184,6 +184,14 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Translation):
         return {"x": _coefficients(motion.x), "y": _coefficients(motion.y)}
     raise InputError(f"a motion of this kind has no place in a scene file: {shorten(motion)}")
+
+
+def _spin_to_json(spin: Spin) -> dict[str, object]:
+    return {
+        "omega": _text(spin.exact_omega),
+        "error": _text(spin.exact_error),
+        **({"pivot": [_text(c) for c in spin.exact_pivot]} if any(spin.exact_pivot) else {}),
+    }
 
 
 def _path_to_json(path: PosePath) -> dict[str, object]:

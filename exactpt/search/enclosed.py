@@ -115,7 +115,7 @@ def first_contact_enclosed(
     certain to touch if one of them has such an error.
 
     >>> from exactpt import Body, PosePath, Scene, Spin
-    >>> blade = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 2), error="1/1000"))
+    >>> blade = Body("blade", [(0, 0), (2, 0)], Spin(1, error="1/1000"))
     >>> post = Body("post", [(-1, 1), (1, 1), (1, 2), (-1, 2)])
     >>> bounds = first_contact_enclosed(Scene([blade, post], time=(0, 2)))
     >>> float(bounds.low) < 0.7853981633974483 < float(bounds.high)  # pi / 4

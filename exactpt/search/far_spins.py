@@ -12,7 +12,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.motions import Translation
 from exactpt.motion.outline import reach_from
 from exactpt.motion.shape import are_constant
 from exactpt.motion.spin import Spin
@@ -45,23 +45,20 @@ def _corners(body: Body, start: QQ, end: QQ) -> list[Point] | None:
         return None
     places = [(x.exact_at(start), y.exact_at(start)) for x, y in body.vertices]
     if isinstance(motion, Spin):
-        path = motion.motions[0]
-        if not isinstance(path, Rigid):
-            return None
-        reach = reach_from(body, path.exact_pivot)
+        reach = reach_from(body, motion.exact_pivot)
         if reach is None:
             return None
-        places, margin = [path.exact_pivot], reach + body.exact_radius
+        places, margin = [motion.exact_pivot], reach + body.exact_radius
     elif isinstance(motion, Translation):
-        path, margin = motion, body.exact_radius
+        margin = body.exact_radius
     else:
         return None
-    if max(path.x.degree, path.y.degree) > 1:
+    if max(motion.x.degree, motion.y.degree) > 1:
         return None
     left, right = min(x for x, _ in places) - margin, max(x for x, _ in places) + margin
     low, high = min(y for _, y in places) - margin, max(y for _, y in places) + margin
     return [
-        (x + path.x.exact_at(t), y + path.y.exact_at(t))
+        (x + motion.x.exact_at(t), y + motion.y.exact_at(t))
         for t in (start, end)
         for x, y in ((left, low), (right, high))
     ]

@@ -32,6 +32,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
+from exactpt.motion.spin import Spin
 from exactpt.motion.stated_errors import NONE_STATED
 
 GRID = power_of_two(-20)
@@ -101,8 +102,9 @@ def onward(
     """Return the motion by which a body continues from its position with a new velocity.
 
     The translation becomes linear; rotation or affine deformation continues unchanged. For a
-    motion in pieces this applies to all pieces from t on. The pieces of a path, a spin or a spline
-    continue without its error; `Bounce` states the part of it that is assumed of the body.
+    motion in pieces this applies to all pieces from t on. A `Spin` turns on as before, within its
+    error. The pieces of a path or a spline continue without its error; `Bounce` states the part of
+    it that is assumed of the body.
 
     Args:
         body: the body whose motion is replaced.
@@ -124,6 +126,8 @@ def onward(
         )
     )
     motion = body.motion
+    if isinstance(motion, Spin):
+        return motion.with_translation(x, y)
     if not isinstance(motion, Pieces):
         return _translated(body.exact_piece_after(now).motion, x, y)
     ends = (*motion.exact_until, None)

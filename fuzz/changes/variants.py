@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Final, TypeAlias
 
 from exactpt import (
@@ -21,6 +22,7 @@ from exactpt import (
     Polynomial,
     Rigid,
     Scene,
+    Spin,
     Translation,
 )
 from exactpt.kernel.numbers import QQ, ZZ, power_of_two
@@ -65,7 +67,9 @@ class Variant:
     def scene(self, scene: Scene) -> Scene:
         """The image of a scene."""
         middle, moment = (scene.start + scene.end) / 2, (scene.end - scene.start) / 10**30
-        bodies = [self._body(body, middle + i * moment) for i, body in enumerate(scene.bodies)]
+        bodies = [
+            self._body(body, scene.time, middle + i * moment) for i, body in enumerate(scene.bodies)
+        ]
         if self.reorder:
             bodies.reverse()
         span = sorted(self.rate * t + self.delay for t in (scene.start, scene.end))
@@ -95,9 +99,11 @@ class Variant:
         (a, b), (c, d) = ((float(p), float(q)) for p, q in self.matrix)
         return a * x + b * y + float(self.shift[0]), c * x + d * y + float(self.shift[1])
 
-    def _body(self, body: Body, middle: QQ) -> Body:
+    def _body(self, body: Body, span: tuple[Fraction, Fraction], middle: QQ) -> Body:
         order = sorted(range(body.size), key=lambda i: self.vertex(body, i))
         motion = body.motion
+        if isinstance(motion, Spin):
+            motion = motion.pieces_during(*span)
         if isinstance(motion, Pieces):
             ends = [*motion.until, None]
             parts = [(t, self._motion(m)) for t, m in zip(ends, motion.motions, strict=True)]

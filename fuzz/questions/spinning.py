@@ -17,7 +17,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import combinations, pairwise
 from random import Random
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import mpmath
 
@@ -36,6 +36,8 @@ __all__ = ["Case", "case_of", "path_scene", "spinning_scene"]
 SAMPLES: Final = 16
 MOST: Final = 4
 """How many times as wide as E / v bounds may be."""
+PARTS: Final = 4
+"""Widths are counted in parts of E / v: so many make one."""
 
 
 class Case(NamedTuple):
@@ -133,7 +135,10 @@ def _compared(scene: Scene, truth: Truth, bounds: EnclosedContact | None, time: 
     if allowed is None:
         return Case("certain, and may graze", None)
     width = (high - real(bounds.low.low)) / allowed
-    return Case("certain", None if width <= MOST else f"{mpmath.nstr(width, 6)} E / v wide")
+    if width > MOST:
+        return Case("certain, and wide", f"{mpmath.nstr(width, 6)} E / v wide")
+    bound = int(mpmath.ceil(width * PARTS)) / PARTS
+    return Case(f"certain, at most {bound} E / v wide", None)
 
 
 def _allowed(scene: Scene, truth: Truth, bounds: EnclosedContact, time: Real) -> Real:
@@ -175,8 +180,7 @@ def _error(body: Body) -> Real:
     motion = body.motion
     if not isinstance(motion, (Spin, PosePath)):
         return mpmath.mpf(0)
-    turn: Any = motion.motions[0]
-    pivot = mpmath.mpc(*map(real, turn.pivot)) if isinstance(motion, Spin) else mpmath.mpc(0)
+    pivot = mpmath.mpc(*map(real, motion.pivot))
     off = real(motion.place_error) if isinstance(motion, PosePath) else mpmath.mpf(0)
     arms = [
         sum(abs(mpmath.mpc(*(real(f.coefficients[k]) if k <= f.degree else 0 for f in v))

@@ -186,7 +186,7 @@ def _motion(random: Random) -> Motion:
         lambda: Affine([[Polynomial([1, "1/2"]), 0], [Polynomial([0, u]), 1]], x=[0, v]),
         lambda: Affine([[-1, Polynomial([0, 1])], [0, 1]], y=[0, v]),
         lambda: Pieces([(1, there), (None, Translation([2 * u, -u], [v]))]),
-        lambda: Spin(u or 1, pivot=(v, u), time=(0, 2), error="1/100"),
+        lambda: Spin(u or 1, pivot=(v, u), error="1/100"),
         lambda: PosePath([0, 2], [([0, u], [0, v], [0, 1])], error="1/100"),
     ]
     return random.choice(motions)()

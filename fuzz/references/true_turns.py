@@ -70,13 +70,14 @@ class _Turning:
         self.rings = body.rings if body.has_interior else ()
         self.starts = [outline.start for outline, *_ in body.parts]
         self.pivot = zero = mpmath.mpf(0)
-        self.span = (-mpmath.inf, mpmath.inf)  # before and after, the body rests
+        self.span = (-mpmath.inf, mpmath.inf)  # before a path and after it, the body rests
         long = end
         if isinstance(motion, Spin):
-            turn: Any = motion.motions[0]
-            self.pivot = mpmath.mpc(*map(real, turn.pivot))
-            self.pieces = [_Piece(zero, _coefficients(turn.x, turn.y), [zero, real(motion.omega)])]
+            self.pivot = mpmath.mpc(*map(real, motion.pivot))
+            path = _coefficients(motion.x, motion.y)
+            self.pieces = [_Piece(zero, path, [zero, real(motion.omega)])]
         elif isinstance(motion, PosePath):
+            self.pivot = mpmath.mpc(*map(real, motion.pivot))
             times = list(map(real, motion.times))
             self.span = times[0], times[-1]
             self.pieces = [

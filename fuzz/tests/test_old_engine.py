@@ -129,7 +129,7 @@ def test_bounds_of_no_common_time_or_wider_ones_are_a_difference(new, old):
 
 
 def test_only_bounds_of_bodies_that_spin_are_compared_as_bounds(engine):
-    spinning = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 2), error="1/1000"))
+    spinning = Body("blade", [(0, 0), (2, 0)], Spin(1, error="1/1000"))
     scene = Scene([spinning, WALL], time=(0, 2))
 
     asked = list(compared(scene, tilings_of(scene), None, engine))
@@ -140,7 +140,7 @@ def test_only_bounds_of_bodies_that_spin_are_compared_as_bounds(engine):
 
 def test_bug_bounds_of_a_rational_arm_were_compared_as_texts(monkeypatch):
     """The old version took 1 + 2^-24 for the arm of this tip, 1: its bound is earlier."""
-    tip = Body("tip", [(1, 0)], Spin(1, time=(0, 3), error=1))
+    tip = Body("tip", [(1, 0)], Spin(1, error=1))
     question = "enclosed contact", Scene([tip, Body("post", [(0, 1)])], time=(0, 3)), {}
     new = Answer.of(answer_to(*question))
     arm = RootBounds(QQ(1), 1 + QQ(1, 2**24))

@@ -156,7 +156,7 @@ CALLS = {
     "Rigid": lambda w: exactpt.Rigid([0, w.unit], pivot=(w.unit, 2)),
     "Scene": lambda w: w.scene,
     "Simulation": lambda w: w.simulation(),
-    "Spin": lambda w: exactpt.Spin("1/7", time=(0, w.unit), error="1/1000"),
+    "Spin": lambda _: exactpt.Spin("1/7", error="1/1000"),
     "Surroundings": lambda w: exactpt.clearance(w.scene, w.mover),
     "Translation": lambda w: w.motion,
     "Units": lambda _: exactpt.Units(length="mm", time="s"),

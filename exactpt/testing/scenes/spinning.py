@@ -8,15 +8,13 @@ from random import Random
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Coefficients, Translation
+from exactpt.motion.motions import Translation
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
 from exactpt.testing.scenes.shapes import box
 
 ERRORS = ["1/50", "1/1000", "1/1000", "1e-6", "1e-9"]
 """Errors of an angle."""
-DEGREES = {"1e-6": 1}
-"""Degrees of half turns that are not the ones of today's default: published scenes stay equal."""
 
 
 def gears(rng: Random) -> Scene:
@@ -34,7 +32,7 @@ def gears(rng: Random) -> Scene:
     ):
         phase = _number(rng, 0, 2 * math.pi)
         ring = _gear((x, QQ(0)), r, height, n, phase)
-        spin = _spin(omega / 8, (x, 0), time=(0, end), error=rng.choice(ERRORS))
+        spin = Spin(omega / 8, (x, 0), error=rng.choice(ERRORS))
         bodies.append(Body(name, ring, spin))
     return Scene(bodies, (0, end))
 
@@ -43,7 +41,7 @@ def mills(rng: Random) -> Scene:
     """A mill, of blades that are thin or are not, and what flies or stands in its way."""
     end = QQ(rng.randint(1, 3))
     omega = rng.choice([1, -1]) * _number(rng, 0.5, 2)
-    spin = _spin(omega, (0, 0), time=(0, end), error=rng.choice(ERRORS))
+    spin = Spin(omega, (0, 0), error=rng.choice(ERRORS))
     arm = QQ(rng.randint(2, 4))
     bodies = [
         rng.choice(
@@ -74,10 +72,9 @@ def orbits(rng: Random) -> Scene:
     bodies = []
     for i in range(rng.randint(2, 4)):
         pivot = _number(rng, -0.5, 0.5), _number(rng, -0.5, 0.5)
-        spin = _spin(
+        spin = Spin(
             rng.choice([1, -1]) * _number(rng, 0.5, 3),
             pivot,
-            time=(0, end),
             error=rng.choice(ERRORS),
             x=[0, _number(rng, -1, 1)] if i == 0 else 0,
         )
@@ -91,17 +88,6 @@ def orbits(rng: Random) -> Scene:
     if rng.random() < 0.3:
         bodies.append(Body("hub", box(QQ(-1, 2), QQ(-1, 2), QQ(1), QQ(1))))
     return Scene(bodies, (0, end))
-
-
-def _spin(
-    omega: QQ,
-    pivot: tuple[int | QQ, int | QQ],
-    *,
-    time: tuple[int | QQ, QQ],
-    error: str,
-    x: Coefficients = 0,
-) -> Spin:
-    return Spin(omega, pivot, time=time, error=error, degree=DEGREES.get(error), x=x)
 
 
 def _place(far: float, angle: float) -> Point:

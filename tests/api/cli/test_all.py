@@ -58,7 +58,7 @@ def test_a_bound_on_the_size_of_the_file_holds(scene, capsys):
 
 # collide --enclosed: bounds of the first contact, in words and as JSON
 
-BLADE = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 3), error="1/1000"))
+BLADE = Body("blade", [(0, 0), (2, 0)], Spin(1, error="1/1000"))
 
 
 @pytest.fixture

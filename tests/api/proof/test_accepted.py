@@ -49,7 +49,7 @@ def test_a_turn_that_begins_at_an_angle_and_passes_180_degrees():
 
 
 def test_a_spin_is_pieces_to_a_checker():
-    mill = Body("mill", [(0, 0), (3, 0), (3, 1)], Spin(2, time=(0, 3), error="1/10"))
+    mill = Body("mill", [(0, 0), (3, 0), (3, 1)], Spin(2, error="1/10"))
     scene = Scene([mill, Body("post", [(-2, -2)])], time=(0, 3))
     lines, contact = proof_of(scene)
     assert contact is not None

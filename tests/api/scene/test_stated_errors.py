@@ -97,7 +97,7 @@ def test_numbers_of_errors_are_exact():
     "motion",
     [
         Rigid([0, 1], pivot=(2, 3)),
-        Spin(1, (2, 3), time=(0, 1), error="1/100"),
+        Spin(1, (2, 3), error="1/100"),
         PosePath([0, 1], [(0, 0, [0, 1])], pivot=(2, 3), error="1/100"),
         Pieces([(0, Translation()), (None, Rigid([0, 1], pivot=(2, 3)))]),
     ],
@@ -182,7 +182,7 @@ def test_a_halted_body_states_what_was_assumed_of_its_motion():
     assert assumed > 0
     halted = Body("a", SQUARE, unwrapped).halted(1)
     assert (halted.angle_error, halted.reference_point) == (assumed, (1, 1))
-    assert errors_of(Body("a", SQUARE, Spin(1, time=(0, 9))).halted(1)) == (0, 0, (0, 0), None)
+    assert errors_of(Body("a", SQUARE, Spin(1)).halted(1)) == (0, 0, (0, 0), None)
 
 
 # Responses and histories of simulations

@@ -136,7 +136,7 @@ KEPT = {
     "affine": Affine([[Polynomial([1, 1]), Polynomial([0, 3])], [0, -1]]),
     "affine that collapses later": Affine(SINGULAR_AT_2),
     "pieces": Pieces([(1, Translation([0, 1])), (None, Rigid([-1, 1], pivot=(0, 0), x=1))]),
-    "spin": Spin("3/2", pivot=(4, 4), time=(0, 1), error="1/100"),
+    "spin": Spin("3/2", pivot=(4, 4), error="1/100"),
     "path": PosePath([0, 1], [([0, 2], [0], [0, 1])], error="1/100"),
 }
 

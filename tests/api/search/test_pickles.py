@@ -92,7 +92,7 @@ ANSWERS = {
     "Rigid": lambda: Rigid([0, 1], pivot=(1, 2), x=[0, 3]),
     "Scene": lambda: SCENE,
     "Simulation": lambda: Simulation(SCENE),
-    "Spin": lambda: Spin(1, (1, 2), time=(0, "1/100")),
+    "Spin": lambda: Spin(1, (1, 2)),
     "Translation": lambda: Translation([0, 1], "1/3"),
     "Units": lambda: exactpt.Units(length="mm"),
     "Velocity": lambda: exactpt.Velocity(1, 2),

@@ -167,7 +167,7 @@ def test_bug_numbers_of_scenes_and_motions_are_pythons_own():
     scene = scene_of_every_kind()
 
     assert no_leaks(scene=scene) > 100
-    assert no_leaks(spin=Spin("1/9", (-20, 0), time=(0, 2), error="1/9")) > 3
+    assert no_leaks(spin=Spin("1/9", (-20, 0), error="1/9")) > 3
     assert no_leaks(path=PosePath([0, "1/3", 2], [(0, 1, ["1/9", 1]), (0, 1, "4/9")])) > 3
     assert type(scene.start) is type(scene.body("mill").motion.pivot[0]) is Fraction
     assert json.dumps(Polynomial([1, 2, "1/3"]).degree) == "2"

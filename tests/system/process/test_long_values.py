@@ -94,7 +94,7 @@ DOORS = {
     "aff2": lambda _: exactpt.Affine([[LONG, 0], [0, 0]]),
     "pieces": lambda _: exactpt.Pieces([(LONG, exactpt.Translation())]),
     "pieces2": lambda _: exactpt.Pieces([(1, LONG), (None, LONG)]),
-    "spin": lambda _: exactpt.Spin(LONG, time=(0, 1)),
+    "spin": lambda _: exactpt.Spin(LONG),
     "pose": lambda _: exactpt.PosePath([0, LONG], [([0], [0], [0])]),
     "pose2": lambda _: exactpt.PosePath([0, 1], [(LONG, LONG)]),
     "a date": lambda _: exactpt.from_datetime(LONG),

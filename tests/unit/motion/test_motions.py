@@ -228,7 +228,7 @@ def test_pieces_of_one_rigid_map_are_continuous_without_their_trajectories(monke
     monkeypatch.setattr(Rigid, "track", lambda *given: tracks.append(given))
     for after in (held, moved):
         Body("box", [(0, 0), (1, 0), (0, 1)], Pieces([(h, turned), (None, after)]))
-    Body("box", [(0, 0), (1, 0)], Spin(1, time=(0, 40), pivot=(5, 3)))
+    Body("box", [(0, 0), (1, 0)], Spin(1, pivot=(5, 3)))
 
     assert tracks == []
 

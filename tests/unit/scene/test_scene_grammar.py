@@ -124,7 +124,7 @@ def test_random_scenes_with_all_keys_are_read_as_written(kind):
 
 def test_a_scene_without_the_keys_is_written_as_before():
     motion = PosePath([0, 1], [([0, 1], 0, [0, 1])], error="1/100")
-    scene = Scene([Body("a", SQUARE, motion), Body("b", [(5, 5)], Spin(1, time=(0, 1)))])
+    scene = Scene([Body("a", SQUARE, motion), Body("b", [(5, 5)], Spin(1))])
     zero = Scene(
         [body.with_errors(place_error=0, angle_error="0", shape_error=(0, 0.0)) for body in scene],
         units=None,
@@ -225,7 +225,7 @@ def test_the_fast_reader_of_batches_leaves_the_keys_to_the_reader_of_scenes():
 
 
 def test_a_reader_of_an_angle_error_takes_the_pivot_of_the_motion():
-    spin = Spin(1, (2, 3), time=(0, 1), error="1/100")
+    spin = Spin(1, (2, 3), error="1/100")
     path = PosePath([0, 1], [(0, 0, [0, 1])], error="1/100", pivot=(4, 5))
     turn = Rigid([0, 1], pivot=(6, 7))
     pieces = Pieces([(1, Translation()), (None, Rigid(0, pivot=(8, 9)))])

@@ -39,7 +39,7 @@ def test_union_of_two_with_a_common_edge_is_a_square():
     [
         Translation([0, 1], [0, 0, "1/3"]),
         Rigid([0, 1], pivot=(1, 1)),
-        Spin(2, (1, 1), time=(0, 3), error="1/100"),
+        Spin(2, (1, 1), error="1/100"),
         PosePath([0, 2], [([0, 1], 0, [0, 1])], error="1/1000"),
     ],
 )

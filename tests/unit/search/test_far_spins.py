@@ -12,7 +12,7 @@ from exactpt.search import far_spins, features_sweep
 
 def blade(name, at, omega, end=20, **options):
     x, y = at
-    spin = Spin(omega, (x, y), time=(0, end), error="1/50", **options)
+    spin = Spin(omega, (x, y), error="1/50", **options)
     return Body(name, [(x, y), (x + 3, y), (x + 3, y + 4)], spin)
 
 

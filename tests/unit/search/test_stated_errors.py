@@ -146,7 +146,7 @@ def test_only_the_error_of_fitting_vanishes_where_the_fit_is_exact():
     blade = [(0, 0), (3, 0)]
     turn = PosePath([0, 2], [(0, 0, [0, 1])], error="1/100")
 
-    for motion in (turn, Spin(1, time=(0, 2), error="1/100")):
+    for motion in (turn, Spin(1, error="1/100")):
         assert is_certain_at_start(start_of(hub, Body("blade", blade, motion)))
     stated = turn.with_place_error("1e-9")
     assert not is_certain_at_start(start_of(hub, Body("blade", blade, stated)))

@@ -247,7 +247,7 @@ def a_spin_turns_by_its_angle_within_its_error(random):
     shape = [(random.randint(-9, 9), random.randint(-9, 9)) for _ in range(2)]
     if shape[0] == shape[1]:
         return False
-    body = Body("a", shape, Spin(omega, pivot, time=(0, 4), error=error))
+    body = Body("a", shape, Spin(omega, pivot, error=error))
     t = some_time(random, (0, 4))
     places = turning.turned(shape, pivot, omega * t, bits=600)
     with mpmath.workdps(DIGITS + 20):
