@@ -25,7 +25,7 @@ from exactpt.proof.emit import ProofRun
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import scene_bytes
-from exactpt.search.features_sweep import PairsSearch
+from exactpt.search.first import pair_search
 from exactpt.tiling.driver import EVENTS, Driver, Observer
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.start import plan_tiling
@@ -166,7 +166,7 @@ def check_run(
         if contact is not None:
             witness.time(contact.time)
     report.contact = None if contact is None else contact.time.to_json()
-    expected = PairsSearch(scene, max_seconds=_left(deadline)).run_to_contact()
+    expected = pair_search(scene, max_seconds=_left(deadline)).run_to_contact()
     difference = contrast(expected, contact)
     report.pairs_agree = difference is None
     if difference is not None:

@@ -20,10 +20,11 @@ from exactpt.certificates import certifier, coefficients, incidences, perturbati
 from exactpt.certificates import first_root as filters
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
-from exactpt.filters import starts, straight
+from exactpt.filters import starts, straight, windows
 from exactpt.filters.exactly import Entry
 from exactpt.filters.features import Filter
 from exactpt.filters.straight import Passage
+from exactpt.filters.windows import Window
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel import roots
 from exactpt.kernel.integer_polynomial import negate
@@ -35,10 +36,12 @@ from exactpt.pair import near_features
 from exactpt.query import locate
 from exactpt.query.sight import FreeTriangles
 from exactpt.search import clearance
+from exactpt.search.body_rows import BodyRows
 from exactpt.search.decide import Decider
+from exactpt.search.new import NewContactSearch
 from exactpt.search.reading import Rows
 from exactpt.search.sweep import Ignored
-from exactpt.search.sweep_search import SlabsOfAll, Sweep
+from exactpt.search.sweep_search import Slabs, Sweep
 from exactpt.tiling import driver, engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
@@ -366,9 +369,9 @@ PLANTED: Final[dict[str, Mistake]] = {
         "A bound is rounded to the wrong side.",
         Edit(
             Rows,
-            "_reach",
-            "enclosing_floats(reach)[1]",
-            "(enclosing_floats(reach)[0] or 2.0**-1074)",
+            "reach",
+            "enclosing_floats(reach * power_of_two(-self.units.scale[0]))[1]",
+            "(enclosing_floats(reach * power_of_two(-self.units.scale[0]))[0] or 2.0**-1074)",
         ),
         RADIUS_IS_MASKED,
     ),
@@ -427,7 +430,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     "a step of the length of the next one": Mistake(
         "A value is used after it has changed.",
         Edit(
-            SlabsOfAll,
+            Slabs,
             "__iter__",
             "low, length = high, 2.0 * length",
             "low, length = low + 2.0 * length, 2.0 * length",
@@ -439,7 +442,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "the first decided taken for the earliest": Mistake(
         "A bound of an order is taken for the order.",
-        Edit(Decider, "_decide_one_by_one", "candidate.low > self.best.high", "self.best.found"),
+        Edit(Decider, "_decide_one_by_one", "candidate.low > self._high", "self.best.found"),
     ),
     "a contact after the slab taken for the first": Mistake(
         "What is complete within an interval is used beyond it.",
@@ -448,9 +451,9 @@ PLANTED: Final[dict[str, Mistake]] = {
     "rounded rows taken for exact": Mistake(
         "Rounded numbers are taken for exact ones.",
         Edit(
-            Rows,
-            "_add_rounded",
-            "Errors(shape.error, straight.c_error, straight.v_error)",
+            BodyRows,
+            "_translated",
+            "Errors(places.error, max(x.errors[0], y.errors[0]), max(x.errors[1], y.errors[1]))",
             "EXACT",
         ),
     ),
@@ -459,8 +462,51 @@ PLANTED: Final[dict[str, Mistake]] = {
         Edit(
             Decider,
             "_first",
-            "max(rows.spans[one].start, rows.spans[other].start)",
-            "rows.spans[one].start",
+            "max(rows.span.start, one_start, other_start)",
+            "max(rows.span.start, one_start)",
+        ),
+    ),
+    "a constant turn forgotten": Mistake(
+        "What is usually 1 is taken to be 1.",
+        Edit(BodyRows, "_turning", "if cosine == 1 else", "if True else"),
+    ),
+    "the box at rest taken for that of all turns": Mistake(
+        "What holds at one time is taken to hold at all times.",
+        Edit(BodyRows, "waiting", ".turned_box", ".box"),
+    ),
+    "bodies left waiting for their pieces": Mistake(
+        "What is put off is never done.",
+        Edit(Slabs, "__iter__", "while pairs.waiting:", "while not pairs:"),
+    ),
+    "affine bodies taken for rigid ones": Mistake(
+        "A comparison of kinds is off by one.",
+        Edit(BodyRows, "_piece", "deforms=kind >= AFFINE", "deforms=kind > AFFINE"),
+    ),
+    "a contact that lasts taken for a new one": Mistake(
+        "What is looked at by itself is not left out elsewhere.",
+        Edit(NewContactSearch, "_first_contact", "_sweep_but(touching)", "_sweep_but([])"),
+    ),
+    "a distance forgotten where rows are kept": Mistake(
+        "What is kept of one question is used for another.",
+        Edit(Rows, "grown", "self._extra + extra", "self._extra"),
+    ),
+    "an anchor at (x, x)": Mistake(
+        "One coordinate is used for both.",
+        Edit(
+            windows, "quotients", "table.frames[anchor + PATH_Y]", "table.frames[anchor + PATH_X]"
+        ),
+    ),
+    "the origin of a piece forgotten": Mistake(
+        "A time since one begin is taken for a time since another.",
+        Edit(Window, "fill", "middle -= table.origin[piece]", "middle -= 0.0"),
+    ),
+    "a time of the rows taken for one of the scene": Mistake(
+        "A number is used in another unit.",
+        Edit(
+            Decider,
+            "_decide_one_by_one",
+            "self._rows.units.exact_time(limit)",
+            "of_double(limit)",
         ),
     ),
     "times before 0 forgotten": Mistake(

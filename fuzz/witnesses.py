@@ -9,7 +9,7 @@ from exactpt import Contact, Scene, Simulation, first_contact, proof_check, proo
 from exactpt.check import check_run
 from exactpt.pair.comparison import in_words
 from exactpt.scene.groups import is_tileable
-from exactpt.search.features_sweep import PairsSearch
+from exactpt.search.first import pair_search
 from exactpt.testing import reference as defined
 from exactpt.testing.agreement import disagreement
 from exactpt.testing.audits import run_and_audit
@@ -75,7 +75,7 @@ def contact_by(scene: Scene, name: str) -> Contact | None:
     if name == "auto":
         return first_contact(scene)
     if name in ("pairs", "exact"):
-        return PairsSearch(scene, exact_only=name == "exact").run_to_contact()
+        return pair_search(scene, exact_only=name == "exact").run_to_contact()
     return first_contact(scene, tiling=name)
 
 

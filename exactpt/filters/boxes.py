@@ -1,11 +1,12 @@
 """Boxes of pieces during a window of time, and the pairs of boxes that meet.
 
 **The box of a piece** in the window t = middle + half s, -1 <= s <= 1. With the model of its path
-(`exactpt.filters.models`), and less a drift, which is a velocity that all pieces have in common,
+(`exactpt.filters.models`), and less a drift, which is a path that all pieces have in common,
 
-    p(t) - drift t  =  (p0 - drift middle) + (p1 - drift half) s + p2 s^2,    within r.
+    p(t) - d(t)  =  (p0 - d0) + (p1 - d1) s + (p2 - d2) s^2,    within r,
 
-So it stays within its *reach* |p1 - drift half| + |p2| + r of its *center* p0 - drift middle::
+with d0, d1, d2 of the drift d(t) = v t + b t^2. So it stays within its *reach* |p1 - d1| + |p2 -
+d2| + r of its *center* p0 - d0::
 
             reach          left + reach      what the places of the piece add: from low to high
         |-----------|           |
@@ -14,8 +15,9 @@ So it stays within its *reach* |p1 - drift half| + |p2| + r of its *center* p0 -
 
 What the places add to the path is in the box of the places (`STRAIGHT`, `CURVED`), of all their
 turns (`TURNING`) or of their images (`AFFINE`: `image_along`). If vertices move by themselves
-(`OWN`), each has a path, and adds nothing. What is common to two pieces brings them no nearer, so
-boxes less the drift meet if the pieces do: few do when all of a scene moves in one direction.
+(`OWN`, `GENERAL`), each has a path, and adds nothing. What is common to two pieces brings them no
+nearer, so boxes less the drift meet if the pieces do: few do when all of a scene moves in one
+direction.
 
 *Errors.* A place is off by e at most in x and in y, and its turn by less than 2 e. The path is off
 by path_error + speed_error |t|, beside relative errors, which are in r. The radius is added.
@@ -34,7 +36,7 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
-from exactpt.filters.models import ROUNDING, of_polynomial
+from exactpt.filters.models import ROUNDING, Model, of_polynomial
 from exactpt.filters.rounding import INFINITY, SLACK, TINY, U, as_lower, as_upper
 from exactpt.filters.rows import (
     AFFINE,
@@ -42,6 +44,7 @@ from exactpt.filters.rows import (
     BOX,
     COEFFICIENTS,
     FRAME,
+    GENERAL,
     LEFT,
     MATRIX_A,
     MATRIX_B,
@@ -57,6 +60,7 @@ from exactpt.filters.rows import (
     Table,
     append_box,
 )
+from exactpt.filters.windows import quotients
 
 RUN: Final[i64] = 16
 """So many numbers are sorted by insertion, before runs are merged."""
@@ -64,9 +68,24 @@ ONE_STRIP: Final[i64] = 128
 """Up to so many boxes are swept in one strip."""
 
 
-def during(
-    table: Table, low: float, high: float, drift_x: float, drift_y: float
-) -> tuple[vec[i64], vec[float]]:
+class Drift:
+    """A path of degree 2 from the origin: any may be subtracted from all pieces.
+
+    Attributes:
+        x, y: the coefficients of t.
+        bend_x, bend_y: those of t^2.
+    """
+
+    def __init__(
+        self, x: float = 0.0, y: float = 0.0, bend_x: float = 0.0, bend_y: float = 0.0
+    ) -> None:
+        self.x = x
+        self.y = y
+        self.bend_x = bend_x
+        self.bend_y = bend_y
+
+
+def during(table: Table, low: float, high: float, drift: Drift) -> tuple[vec[i64], vec[float]]:
     """Return the pieces that last during a part of [low, high], and their boxes.
 
     A box holds the piece in that part, grown by its radius, less the drift: `BOX` numbers each.
@@ -78,22 +97,23 @@ def during(
         start, end = table.start[k], table.end[k]
         if start <= high and end >= low:
             first, last = max(low, start), min(high, end)
-            left, right, bottom, top = of_piece(table, k, first, last, drift_x, drift_y)
+            left, right, bottom, top = of_piece(table, k, first, last, drift)
             active = append(active, k)
             boxes = append_box(boxes, left, right, bottom, top)
         k += 1
     return active, boxes
 
 
-def of_piece(table: Table, k: i64, low: float, high: float, drift_x: float, drift_y: float) -> Box:
+def of_piece(table: Table, k: i64, low: float, high: float, drift: Drift) -> Box:
     """Return a box of a piece in [low, high], grown by its radius, less the drift."""
     middle = 0.5 * (low + high)
     half = max(high - middle, middle - low) * (1.0 + 4.0 * U)
-    if table.kind[k] == OWN:
-        left, right, bottom, top = around_vertices(table, k, middle, half, drift_x, drift_y)
+    kind = table.kind[k]
+    if kind in (OWN, GENERAL):
+        left, right, bottom, top = around_vertices(table, k, middle, half, drift)
     else:
-        left, right, bottom, top = around_path(table, k, middle, half, drift_x, drift_y)
-    latest = abs(middle) + half
+        left, right, bottom, top = around_path(table, k, middle, half, drift)
+    latest = abs(middle - table.origin[k]) + half
     error = 2.0 * table.place_error[k] + table.path_error[k] + table.speed_error[k] * latest
     margin = (table.radius[k] + error) * SLACK + TINY
     left, right = left - margin, right + margin
@@ -103,30 +123,53 @@ def of_piece(table: Table, k: i64, low: float, high: float, drift_x: float, drif
     return left, right, bottom, top
 
 
+def around_all(table: Table, t: float) -> Box:
+    """Return the box of all pieces at a time, but for those of which no box is known."""
+    left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+    still = Drift()
+    k: i64 = 0
+    while k < len(table.body):
+        if table.start[k] <= t <= table.end[k]:
+            low_x, high_x, low_y, high_y = of_piece(table, k, t, t, still)
+            if high_x - low_x < INFINITY and high_y - low_y < INFINITY:
+                left, right = min(left, low_x), max(right, high_x)
+                bottom, top = min(bottom, low_y), max(top, high_y)
+        k += 1
+    return left, right, bottom, top
+
+
 def plane() -> Box:
     """Return the box of everything; compiled code has no constant tuples."""
     return -INFINITY, INFINITY, -INFINITY, INFINITY
 
 
-def course(c: vec[float], at: i64, middle: float, half: float, drift: float) -> tuple[float, float]:
-    """Return the center and the reach of a polynomial less drift t, in the window."""
-    c0, c1, c2, rest = of_polynomial(c, at, middle, half)
-    shift, way = drift * middle, drift * half
-    rounding = ROUNDING * (abs(c0) + abs(shift) + abs(c1) + abs(way))
-    reach = (abs(c1 - way) + abs(c2) + rest + rounding) * SLACK + TINY
-    return c0 - shift, reach
+def course(f: Model, middle: float, half: float, speed: float, bend: float) -> tuple[float, float]:
+    """Return the center and the reach of a function less a drift, in the window."""
+    c0, c1, c2, rest = f
+    d0 = (speed + bend * middle) * middle
+    d1 = (speed + 2.0 * bend * middle) * half
+    d2 = bend * half * half
+    latest = abs(middle) + half
+    size_of_drift = (abs(speed) + abs(bend) * latest) * latest
+    rounding = ROUNDING * (abs(c0) + abs(c1) + abs(c2) + 2.0 * size_of_drift)
+    reach = (abs(c1 - d1) + abs(c2 - d2) + rest + rounding) * SLACK + TINY
+    return c0 - d0, reach
 
 
-def around_vertices(
-    table: Table, k: i64, middle: float, half: float, drift_x: float, drift_y: float
-) -> Box:
+def around_vertices(table: Table, k: i64, middle: float, half: float, drift: Drift) -> Box:
     """Return a box of vertices that move by themselves; the plane if one is out of range."""
     left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+    local = middle - table.origin[k]
     v: i64 = 0
     while v < table.size[k]:
-        at = COEFFICIENTS * (table.place[k] + v)
-        x, reach_x = course(table.own, at, middle, half, drift_x)
-        y, reach_y = course(table.own, at + OWN_Y, middle, half, drift_y)
+        if table.kind[k] == GENERAL:
+            f, g = quotients(table, k, v, local, half)
+        else:
+            at = COEFFICIENTS * (table.place[k] + v)
+            f = of_polynomial(table.own, at, local, half)
+            g = of_polynomial(table.own, at + OWN_Y, local, half)
+        x, reach_x = course(f, middle, half, drift.x, drift.bend_x)
+        y, reach_y = course(g, middle, half, drift.y, drift.bend_y)
         if not (abs(x) + reach_x < INFINITY and abs(y) + reach_y < INFINITY):
             return plane()  # min and max would lose a NaN
         left, right = min(left, x - reach_x), max(right, x + reach_x)
@@ -135,18 +178,18 @@ def around_vertices(
     return left, right, bottom, top
 
 
-def around_path(
-    table: Table, k: i64, middle: float, half: float, drift_x: float, drift_y: float
-) -> Box:
+def around_path(table: Table, k: i64, middle: float, half: float, drift: Drift) -> Box:
     """Return a box of a path and of what its places add."""
-    at = FRAME * k
-    x, reach_x = course(table.frames, at + PATH_X, middle, half, drift_x)
-    y, reach_y = course(table.frames, at + PATH_Y, middle, half, drift_y)
+    at, local = FRAME * k, middle - table.origin[k]
+    path_x = of_polynomial(table.frames, at + PATH_X, local, half)
+    path_y = of_polynomial(table.frames, at + PATH_Y, local, half)
+    x, reach_x = course(path_x, middle, half, drift.x, drift.bend_x)
+    y, reach_y = course(path_y, middle, half, drift.y, drift.bend_y)
     low_x, high_x, low_y, high_y = table.box(k)
     if table.kind[k] == AFFINE:
         a, b, c, d = at + MATRIX_A, at + MATRIX_B, at + MATRIX_C, at + MATRIX_D
-        low_x, high_x = image_along(table, k, a, b, middle, half)
-        low_y, high_y = image_along(table, k, c, d, middle, half)
+        low_x, high_x = image_along(table, k, a, b, local, half)
+        low_y, high_y = image_along(table, k, c, d, local, half)
     # of all terms: a side may be a small difference of large ones
     rounding_x = ROUNDING * (abs(x) + reach_x + abs(low_x) + abs(high_x))
     rounding_y = ROUNDING * (abs(y) + reach_y + abs(low_y) + abs(high_y))
@@ -170,7 +213,7 @@ def image_along(
         k: the piece.
         a: where the polynomial a begins in the frames.
         b: where b does.
-        middle: of the window.
+        middle: of the window, since the origin of the piece.
         half: of its width.
     """
     a0, a1, a2, a_rest = of_polynomial(table.frames, a, middle, half)

@@ -24,6 +24,7 @@ spans of both pieces too: their ends are rounded outward in the table, and behin
 formula of a piece goes on, but the piece does not.
 """
 
+from collections.abc import Callable
 from typing import Final
 
 from librt.vecs import append, vec
@@ -51,13 +52,21 @@ turning bodies takes 8 times as long, with 2^-4 a hundred times.
 SHORTEST: Final = 2.0**-14
 """Length at which windows are halved no more, relative to the span."""
 MOST_SHARPENINGS: Final[i64] = 12
+WINDOWS_A_LOOK: Final[i64] = 8
+"""Number of windows between two looks at the clock."""
 
 
 class Filter:
     """The candidates of pairs of pieces in any motion. It keeps its windows, which are large.
 
-    Attributes:
+    Args:
         table: the pieces.
+        exact_only: whether all that boxes do not exclude is left to exact arithmetic.
+        look: is called from time to time: a caller may look at the clock, and end all by an error.
+
+    Attributes:
+        table: as given.
+        exact_only: as given.
         p, q: the windows of the two pieces at hand.
         zero: the pair of features at hand.
         middle, half: the window of time.
@@ -65,8 +74,13 @@ class Filter:
         first, last: a certain contact is between these times.
     """
 
-    def __init__(self, table: Table) -> None:
+    def __init__(
+        self, table: Table, *, exact_only: bool = False, look: Callable[[], None] | None = None
+    ) -> None:
         self.table = table
+        self._look = look
+        self._steps: i64 = 0
+        self.exact_only = exact_only
         self.p = Window()
         self.q = Window()
         self.zero = Zero()
@@ -99,6 +113,7 @@ class Filter:
             begin, end = begins[n], min(ends[n], found.limit)
             if begin > end:
                 continue
+            self._step()
             self._fill(a, b, begin, end)
             q = self.p if a == b else self.q
             if a != b and self.apart(self.p, q, self.distance):
@@ -115,6 +130,12 @@ class Filter:
                 n += 2
             else:
                 self._collect_window(q, found)
+
+    def _step(self) -> None:
+        """Look at the clock after some windows."""
+        self._steps += 1
+        if self._look is not None and self._steps % WINDOWS_A_LOOK == 0:
+            self._look()
 
     def _choose(self, a: i64, b: i64, after: float) -> None:
         """Begin with two pieces."""
@@ -145,10 +166,10 @@ class Filter:
             q: that of the other one.
             whole: the remainder of the window that this one is a half of.
         """
-        if not p.rho + q.rho < INFINITY:
-            return False
         if p.is_coarse or q.is_coarse:
             return True
+        if not p.rho + q.rho < INFINITY:
+            return False
         width = max(p.right, q.right) - min(p.left, q.left)
         height = max(p.top, q.top) - min(p.bottom, q.bottom)
         remainder = p.remainder + q.remainder
@@ -212,6 +233,9 @@ class Filter:
         With a radius, f = R |u| on one side of the edge and f = -R |u| on the other one.
         """
         table, zero, distance = self.table, self.zero, self.distance
+        if self.exact_only:
+            self._keep_whole_window(vertex_on_edge(p.piece, v, q.piece, e), found)
+            return
         at = table.edge[q.piece] + e
         i, j = table.begins[at], table.ends[at]
         zero.z.set(p.rows, v, q.rows, i, p.rho + q.rho)
@@ -248,6 +272,9 @@ class Filter:
         if zero.z.is_far(distance):
             return
         found.compared += 1
+        if self.exact_only:
+            self._keep_whole_window(two_vertices(p.piece, v, q.piece, w), found)
+            return
         zero.squared_distance(distance)
         state = zero.find()
         if state != NONE:
@@ -262,9 +289,13 @@ class Filter:
             i, j = table.begins[first + e], table.ends[first + e]
             zero.z.set(p.rows, i, p.rows, j, 2.0 * p.rho)
             if i != j and not zero.z.is_far(0.0):
-                zero.low, zero.high = -1.0, 1.0
-                self._keep(MAYBE, two_vertices(p.piece, i, p.piece, j), found)
+                self._keep_whole_window(two_vertices(p.piece, i, p.piece, j), found)
             e += 1
+
+    def _keep_whole_window(self, features: Features, found: Candidates) -> None:
+        """Add features that may touch at any time of the window."""
+        self.zero.low, self.zero.high = -1.0, 1.0
+        self._keep(MAYBE, features, found)
 
     def _keep(self, state: i64, features: Features, found: Candidates) -> None:
         """Add what `Zero.find` found, in time.
@@ -308,7 +339,7 @@ class Filter:
             a, b = found.one[c], found.other[c]
             is_straight = kind[a] == STRAIGHT and kind[b] == STRAIGHT
             is_shrinking = a == b and found.edge[c] == NO_EDGE
-            if not (is_straight or is_shrinking):
+            if not (is_straight or is_shrinking or self.exact_only):
                 self._choose(a, b, after)
                 low, high = self._sharpened(found, c, sharper)
             if not low > until:
@@ -334,6 +365,7 @@ class Filter:
         turns: i64 = 0
         while turns < MOST_SHARPENINGS and low <= limited.limit:
             turns += 1
+            self._step()
             self._fill(a, b, low, high)
             one = Candidates(limited.limit)
             q = self.p if a == b else self.q

@@ -47,6 +47,8 @@ ROUNDING: Final = 16.0 * U
 """Error of a sum of products, relative to the sum of the sizes of its terms."""
 FARTHEST: Final = 2.0**100
 """Time up to which there are models."""
+LARGEST_POWER: Final = 2.0**400
+"""Powers of the time up to which there are models of long polynomials."""
 ONE: Final[float] = 1.0
 
 
@@ -56,8 +58,9 @@ def of_polynomial(c: vec[float], at: i64, middle: float, half: float) -> Model:
     The coefficients may have relative errors up to U.
 
     By Horner's rule, the Taylor coefficients at the middle. The cubic term is left to the
-    remainder. A coefficient goes through at most 6 operations. The sizes of all terms that come
-    from c[i] t^i add up to |c[i]| (|middle| + half)^i.
+    remainder. A coefficient goes through at most 6 operations, and with it at most three factors
+    of the middle, which has an error of U if it is the time since an origin. The sizes of all terms
+    that come from c[i] t^i add up to |c[i]| (|middle| + half)^i.
     """
     c0, c1, c2, c3 = c[at], c[at + 1], c[at + 2], c[at + 3]
     reach = abs(middle) + half
@@ -69,6 +72,49 @@ def of_polynomial(c: vec[float], at: i64, middle: float, half: float) -> Model:
     cubic = half * half * half * abs(c3)
     size = abs(c0) + reach * (abs(c1) + reach * (abs(c2) + reach * abs(c3)))
     return value, slope, bend, (cubic + ROUNDING * size) * SLACK + TINY
+
+
+def of_long_polynomial(c: vec[float], at: i64, terms: i64, middle: float, half: float) -> Model:
+    """Return the model of a polynomial with any number of coefficients.
+
+    The coefficients may have relative errors up to U. With R = |middle| + half, the third
+    derivative is at most 6 times the sum of binomial(i, 3) |c[i]| R^(i - 3), so half^3 times that
+    sum bounds the remainder. Horner's scheme finds the first three Taylor coefficients at the
+    middle, and with the sizes at R it finds that sum and the sum of all |c[i]| R^i. In each step a
+    term goes through 2 operations at most. So 4 U times the number of terms covers all rounding,
+    with that of the time: as in `of_polynomial` the sizes of what comes from c[i] t^i add up to
+    |c[i]| R^i.
+
+    Underflow is covered if the powers of R stay below 2^400; else there is no model.
+    """
+    reach = abs(middle) + half
+    if not is_small_power(reach, terms):
+        return c[at], 0.0, 0.0, INFINITY
+    value, slope, bend = 0.0, 0.0, 0.0
+    size, first, second, third = 0.0, 0.0, 0.0, 0.0
+    i = terms
+    while i > 0:
+        i -= 1
+        bend = bend * middle + slope
+        slope = slope * middle + value
+        value = value * middle + c[at + i]
+        third = third * reach + second
+        second = second * reach + first
+        first = first * reach + size
+        size = size * reach + abs(c[at + i])
+    cubic = half * half * half * third
+    rounding = 4.0 * float(terms + 4) * U * size
+    return value, half * slope, half * half * bend, (cubic + rounding) * SLACK + TINY
+
+
+def is_small_power(x: float, exponent: i64) -> bool:
+    """Return True if a power of a number, which is not negative, is certainly below 2^400."""
+    power = 1.0
+    k: i64 = 0
+    while k < exponent:
+        power *= max(x, 1.0)
+        k += 1
+    return power < LARGEST_POWER and x < FARTHEST
 
 
 def size_of(f: Model) -> float:
@@ -127,6 +173,32 @@ def inverse(w: Model) -> Model:
     square = abs(2.0 * e1 * e2) + e2 * e2 + er * (2.0 * q + er)
     rest = (er + square + cubic + ROUNDING * (1.0 + q + q * q)) / abs(w0)
     return 1.0 / w0, -e1 / w0, (e1 * e1 - e2) / w0, rest * SLACK + TINY
+
+
+def turned(cosine: Model, sine: Model, c: float, s: float) -> tuple[Model, Model]:
+    """Return the models of the cosine and the sine of an angle and a constant angle together.
+
+    Args:
+        cosine: that of the angle.
+        sine: that of the angle.
+        c: the cosine of the constant angle, with a relative error up to U.
+        s: its sine, likewise.
+    """
+    return minus(scaled(cosine, c), scaled(sine, s)), plus(scaled(sine, c), scaled(cosine, s))
+
+
+def moved(f: Model, by: float) -> Model:
+    """Return the model of f and a constant, which is exact."""
+    f0, f1, f2, f_rest = f
+    rest = f_rest + ROUNDING * (abs(f0) + abs(by))
+    return f0 + by, f1, f2, rest * SLACK + TINY
+
+
+def scaled(f: Model, factor: float) -> Model:
+    """Return the model of f times a number, which may have a relative error up to U."""
+    f0, f1, f2, f_rest = f
+    rest = abs(factor) * (f_rest + ROUNDING * size_of(f))
+    return factor * f0, factor * f1, factor * f2, rest * SLACK + TINY
 
 
 def turn(h: Model) -> tuple[Model, Model]:

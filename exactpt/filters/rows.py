@@ -13,19 +13,24 @@ The kind of the piece says what p, a, b, c, d are; all polynomials are of degree
 
     `STRAIGHT`   a = d = 1, b = c = 0, and p is of degree 1 at most.
     `CURVED`     the same, and p is of degree 3 at most.
-    `TURNING`    (a, b; c, d) is the turn by the angle of which the half has the tangent h(t).
+    `TURNING`    (a, b; c, d) is a constant turn, and after it the turn by the angle of which the
+                 half has the tangent h(t).
     `AFFINE`     a, b, c, d are polynomials.
     `OWN`        no places: each vertex has two polynomials of its own.
+    `GENERAL`    no places: each vertex is at (x / w, y / w), with three polynomials of any degree,
+                 from an anchor, which is p: two numbers.
+    `WAITING`    a body of which the pieces are not known yet (`exactpt.search.reading` makes them
+                 when they are needed): p, and a box of everything else. It has no vertices.
 
-The searches of today read bodies that move straight alone (`exactpt.search.reading`); the filters
-are right for all kinds, and their adversaries make rows of each.
+Polynomials are in the time since the *origin* of the piece, a double: a piece of a long motion
+is short, and the powers of t would be large beside it.
 """
 
 from __future__ import annotations
 
 from typing import Final, NamedTuple, TypeAlias
 
-from librt.vecs import append, vec
+from librt.vecs import append, pop, vec
 from mypy_extensions import i64
 
 STRAIGHT: Final[i64] = 0
@@ -33,21 +38,30 @@ CURVED: Final[i64] = 1
 TURNING: Final[i64] = 2
 AFFINE: Final[i64] = 3
 OWN: Final[i64] = 4
+GENERAL: Final[i64] = 5
+WAITING: Final[i64] = 6
 
 FRAME: Final[i64] = 24
 """Coefficients of the frame of a piece: six polynomials, of each those of 1, t, t^2, t^3."""
 PATH_X: Final[i64] = 0
 PATH_Y: Final[i64] = 4
 HALF_TURN: Final[i64] = 8
+COSINE: Final[i64] = 12
+SINE: Final[i64] = 13
 MATRIX_A: Final[i64] = 8
 MATRIX_B: Final[i64] = 12
 MATRIX_C: Final[i64] = 16
 MATRIX_D: Final[i64] = 20
-"""Where polynomials of a frame begin: p_x, p_y; then h (`TURNING`), or a, b, c, d (`AFFINE`)."""
+"""Where polynomials of a frame begin: p_x, p_y; then h (`TURNING`), or a, b, c, d (`AFFINE`).
+
+The cosine and the sine of the constant turn are two numbers; both are 0 if there is none.
+"""
 
 COEFFICIENTS: Final[i64] = 8
 """Coefficients of a vertex that moves by itself: of x, and from `OWN_Y` on of y."""
 OWN_Y: Final[i64] = 4
+POLYNOMIALS: Final[i64] = 3
+"""Polynomials of a vertex of a `GENERAL` piece: x, y, w."""
 
 BOX: Final[i64] = 4
 """Numbers of a box in a vector of boxes."""
@@ -98,6 +112,19 @@ class Piece(NamedTuple):
     errors: Errors
     radius: float
     deforms: bool
+    origin: float = 0.0
+    terms: int = 0
+    together: int = 0
+
+
+class Mark(NamedTuple):
+    """The lengths of the vectors of a table at a time."""
+
+    rows: int
+    places: int
+    own: int
+    general: int
+    edges: int
 
 
 class Table:
@@ -127,19 +154,26 @@ class Table:
     Attributes:
         xs, ys: the places of all pieces; relative to the pivot of a piece that turns.
         own: `COEFFICIENTS` numbers for each vertex that moves by itself; relative errors at most U.
+        general: ``terms[k]`` coefficients of each of `POLYNOMIALS` polynomials of a vertex, with
+            relative errors at most U.
         begins, ends: the vertices at the ends of edges, numbered within the piece.
         body: the number of the body of each piece.
         kind: the kind of its motion.
         start, end: the times between which it lasts: the last double that is not after the exact
             start, and the first one that is not before the exact end.
-        place: the number of its first place (`OWN`: of its first vertex in ``own``).
+        origin: the time since which its polynomials are; 0 if it is `STRAIGHT`.
+        terms: the number of coefficients of a polynomial, if the piece is `GENERAL`.
+        place: the number of its first place (`OWN`: of its first vertex in ``own``; `GENERAL`:
+            where its first vertex begins in ``general``).
         size: the number of its vertices.
         edge, edges: the number of its first edge, and the number of its edges.
         frames: `FRAME` numbers a piece; beside the errors below, relative errors at most U, and of
             `STRAIGHT` pieces none.
-        boxes: `BOX` numbers a piece: a box of its places; if it turns, of all turns of them.
+        boxes: `BOX` numbers a piece: a box of its places; if it turns, of all turns of them; if it
+            is `WAITING`, of what is added to its path.
         place_error, path_error, speed_error: bounds as in `Errors`, in lengths (speed: by time).
         radius: at least the radius, with what the question adds to it; larger by at most 2 U of it.
+        together: rows with the same number, unless it is 0, keep their places beside each other.
         deforms: 1 if vertices of the piece may touch its own edges, else 0.
     """
 
@@ -147,12 +181,16 @@ class Table:
         self.xs = vec[float]()
         self.ys = vec[float]()
         self.own = vec[float]()
+        self.general = vec[float]()
         self.begins = vec[i64]()
         self.ends = vec[i64]()
         self.body = vec[i64]()
         self.kind = vec[i64]()
         self.start = vec[float]()
         self.end = vec[float]()
+        self.origin = vec[float]()
+        self.terms = vec[i64]()
+        self.together = vec[i64]()
         self.place = vec[i64]()
         self.size = vec[i64]()
         self.edge = vec[i64]()
@@ -169,6 +207,9 @@ class Table:
         """Return a table of the same rows, to which others can be added."""
         other = Table()
         other.xs, other.ys, other.own = self.xs[:], self.ys[:], self.own[:]
+        other.general = self.general[:]
+        other.origin, other.terms = self.origin[:], self.terms[:]
+        other.together = self.together[:]
         other.begins, other.ends = self.begins[:], self.ends[:]
         other.body, other.kind = self.body[:], self.kind[:]
         other.start, other.end = self.start[:], self.end[:]
@@ -180,6 +221,34 @@ class Table:
         other.speed_error = self.speed_error[:]
         other.radius, other.deforms = self.radius[:], self.deforms[:]
         return other
+
+    def mark(self) -> Mark:
+        """Return what `cut` needs to remove all that is added from now on."""
+        places, own, general = len(self.xs), len(self.own), len(self.general)
+        return Mark(len(self.body), places, own, general, len(self.begins))
+
+    def cut(self, mark: Mark) -> None:
+        """Remove what has been added since a mark."""
+        n = mark.rows
+        self.xs, self.ys = cut_floats(self.xs, mark.places), cut_floats(self.ys, mark.places)
+        self.own, self.general = (
+            cut_floats(self.own, mark.own),
+            cut_floats(self.general, mark.general),
+        )
+        self.begins = cut_numbers(self.begins, mark.edges)
+        self.ends = cut_numbers(self.ends, mark.edges)
+        self.body, self.kind = cut_numbers(self.body, n), cut_numbers(self.kind, n)
+        self.start, self.end = cut_floats(self.start, n), cut_floats(self.end, n)
+        self.origin, self.terms = cut_floats(self.origin, n), cut_numbers(self.terms, n)
+        self.together = cut_numbers(self.together, n)
+        self.place, self.size = cut_numbers(self.place, n), cut_numbers(self.size, n)
+        self.edge, self.edges = cut_numbers(self.edge, n), cut_numbers(self.edges, n)
+        self.frames = cut_floats(self.frames, FRAME * n)
+        self.boxes = cut_floats(self.boxes, BOX * n)
+        self.place_error = cut_floats(self.place_error, n)
+        self.path_error = cut_floats(self.path_error, n)
+        self.speed_error = cut_floats(self.speed_error, n)
+        self.radius, self.deforms = cut_floats(self.radius, n), cut_numbers(self.deforms, n)
 
     def count(self) -> int:
         """Return the number of rows."""
@@ -206,6 +275,13 @@ class Table:
             self.own = append(self.own, c)
         return int(first // COEFFICIENTS)
 
+    def add_general(self, coefficients: list[float]) -> int:
+        """Add vertices of `POLYNOMIALS` polynomials each; return where the first begins."""
+        first = len(self.general)
+        for c in coefficients:
+            self.general = append(self.general, c)
+        return first
+
     def add_edges(self, ends: list[tuple[int, int]]) -> int:
         """Add edges between vertices of one piece; return the number of the first."""
         first = len(self.begins)
@@ -231,6 +307,9 @@ class Table:
         self.kind = append(self.kind, i64(piece.kind))
         self.start = append(self.start, piece.start)
         self.end = append(self.end, piece.end)
+        self.origin = append(self.origin, piece.origin)
+        self.terms = append(self.terms, i64(piece.terms))
+        self.together = append(self.together, i64(piece.together))
         self.place = append(self.place, i64(piece.place))
         self.size = append(self.size, i64(piece.size))
         self.edge = append(self.edge, i64(piece.edge))
@@ -283,12 +362,29 @@ class Table:
         self.kind = append(self.kind, STRAIGHT)
         self.start = append(self.start, start)
         self.end = append(self.end, end)
+        self.origin = append(self.origin, 0.0)
+        self.terms = append(self.terms, 0)
+        self.together = append(self.together, 0)
         self.frames = append_straight(self.frames, x, y)
         self.place_error = append(self.place_error, 0.0)
         self.path_error = append(self.path_error, 0.0)
         self.speed_error = append(self.speed_error, 0.0)
         self.radius = append(self.radius, radius)
         self.deforms = append(self.deforms, 0)
+
+
+def cut_floats(values: vec[float], n: i64) -> vec[float]:
+    """Return the first n values, without a copy: what is appended later replaces the others."""
+    while len(values) > n:
+        values, _ = pop(values)
+    return values
+
+
+def cut_numbers(values: vec[i64], n: i64) -> vec[i64]:
+    """Return the first n values, as `cut_floats` does."""
+    while len(values) > n:
+        values, _ = pop(values)
+    return values
 
 
 def bounds(values: list[float]) -> tuple[float, float]:

@@ -26,9 +26,35 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
-from exactpt.filters.models import ROUNDING, of_polynomial, size_of, turn
+from exactpt.filters.models import (
+    ROUNDING,
+    Model,
+    inverse,
+    moved,
+    of_long_polynomial,
+    of_polynomial,
+    size_of,
+    times,
+    turn,
+    turned,
+)
 from exactpt.filters.rounding import INFINITY, SLACK
-from exactpt.filters.rows import AFFINE, COEFFICIENTS, FRAME, OWN, STRAIGHT, TURNING, Table
+from exactpt.filters.rows import (
+    AFFINE,
+    COEFFICIENTS,
+    COSINE,
+    FRAME,
+    GENERAL,
+    HALF_TURN,
+    OWN,
+    PATH_X,
+    PATH_Y,
+    POLYNOMIALS,
+    SINE,
+    STRAIGHT,
+    TURNING,
+    Table,
+)
 
 ROW: Final[i64] = 6
 """Numbers of a vertex: x0, x1, x2, y0, y1, y2."""
@@ -76,7 +102,10 @@ class Window:
         self.piece = piece
         self.has_rigid_edges = kind < AFFINE
         self.is_coarse = False
-        if kind == OWN:
+        middle -= table.origin[piece]
+        if kind == GENERAL:
+            self._fill_general(table, piece, middle, half)
+        elif kind == OWN:
             self._fill_own(table, piece, middle, half)
         elif kind == TURNING:
             self._fill_turning(table, piece, middle, half)
@@ -102,6 +131,22 @@ class Window:
             remainder = larger(remainder, larger(x_rest, y_rest))
             v += 1
         self.rho = (remainder + given_error(table, piece, middle, half, 1.0)) * SLACK
+        self.remainder = remainder
+
+    def _fill_general(self, table: Table, piece: i64, middle: float, half: float) -> None:
+        """Set the rows of vertices at (x / w, y / w)."""
+        rows = self.rows
+        remainder = 0.0
+        v: i64 = 0
+        while v < table.size[piece]:
+            x, y = quotients(table, piece, v, middle, half)
+            row = ROW * v
+            rows[row + X0], rows[row + X1], rows[row + X2] = x[0], x[1], x[2]
+            rows[row + Y0], rows[row + Y1], rows[row + Y2] = y[0], y[1], y[2]
+            remainder = larger(remainder, larger(x[3], y[3]))
+            v += 1
+        self.is_coarse = remainder == INFINITY and has_models_at(table, piece, middle)
+        self.rho = remainder * SLACK
         self.remainder = remainder
 
     def _fill_translated(self, table: Table, piece: i64, middle: float, half: float) -> None:
@@ -134,7 +179,11 @@ class Window:
         at = FRAME * piece
         path_x = of_polynomial(table.frames, at, middle, half)
         path_y = of_polynomial(table.frames, at + 4, middle, half)
-        cosine, sine = turn(of_polynomial(table.frames, at + 8, middle, half))
+        cosine, sine = turn(of_polynomial(table.frames, at + HALF_TURN, middle, half))
+        is_unknown = cosine[3] == 1.0  # see `turn`
+        constant_c, constant_s = table.frames[at + COSINE], table.frames[at + SINE]
+        if constant_c != 0.0 or constant_s != 0.0:
+            cosine, sine = turned(cosine, sine, constant_c, constant_s)
         px0, px1, px2, _ = path_x
         py0, py1, py2, _ = path_y
         c0, c1, c2, c_rest = cosine
@@ -156,7 +205,6 @@ class Window:
             rows[row + Y1] = py1 + (s1 * x + c1 * y)
             rows[row + Y2] = py2 + (s2 * x + c2 * y)
             v += 1
-        self.is_coarse = c_rest == 1.0  # see `turn`
         place = reach + NOTHING * total
         path_size = larger(size_of(path_x), size_of(path_y))
         rest, size = c_rest + s_rest, size_of(cosine) + size_of(sine)
@@ -165,6 +213,7 @@ class Window:
         given = given_error(table, piece, middle, half, size + rest)
         self.rho = (remainder + rounding + given) * SLACK
         self.remainder = remainder
+        self.is_coarse = is_unknown and self.rho < INFINITY
 
     def _fill_affine(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices in a frame of four polynomials a, b, c, d."""
@@ -219,13 +268,49 @@ class Window:
         self.bottom, self.top = bottom - margin, top + margin
 
 
+def quotients(table: Table, piece: i64, v: i64, middle: float, half: float) -> tuple[Model, Model]:
+    """Return the models of the coordinates of a vertex of a `GENERAL` piece.
+
+    They are x / w and y / w from the anchor. It is near the piece: were it not for that, x and w
+    would be nearly proportional, which models do not know.
+
+    Args:
+        table: has the coefficients.
+        piece: the number of the piece.
+        v: the number of the vertex.
+        middle: the middle of the window, since the origin of the piece.
+        half: half its width.
+    """
+    c, terms = table.general, table.terms[piece]
+    at = table.place[piece] + POLYNOMIALS * terms * v
+    x = of_long_polynomial(c, at, terms, middle, half)
+    y = of_long_polynomial(c, at + terms, terms, middle, half)
+    w = inverse(of_long_polynomial(c, at + 2 * terms, terms, middle, half))
+    anchor = FRAME * piece
+    return (
+        moved(times(x, w), table.frames[anchor + PATH_X]),
+        moved(times(y, w), table.frames[anchor + PATH_Y]),
+    )
+
+
+def has_models_at(table: Table, piece: i64, time: float) -> bool:
+    """Return True if all vertices of a `GENERAL` piece have models at one time since its origin."""
+    v: i64 = 0
+    while v < table.size[piece]:
+        x, y = quotients(table, piece, v, time, 0.0)
+        if not (x[3] < INFINITY and y[3] < INFINITY):
+            return False
+        v += 1
+    return True
+
+
 def given_error(table: Table, piece: i64, middle: float, half: float, factor: float) -> float:
     """Return a bound of what the errors of places and of the path make of a vertex.
 
     Args:
         table: has the errors.
         piece: the number of the piece.
-        middle: the middle of the window.
+        middle: the middle of the window, since the origin of the piece.
         half: half its width.
         factor: bounds |a| + |b| and |c| + |d| in the window.
     """

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import NamedTuple, final
 
-from exactpt.filters.rounding import FAR, TINY, U
+from exactpt.filters.rounding import TINY, U
 from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.polynomial import Polynomial
@@ -153,8 +153,7 @@ class Straight:
         cx, cy, vx, vy: the coefficients of the translation, as doubles.
         c_error, v_error: bounds on the errors of these.
 
-    Doubles may be relative to an origin: then c is greater by ``shift``. The exact vertices are
-    made when they are needed, once for all motions of the body.
+    The exact vertices are made when they are needed, once for all motions of the body.
     """
 
     __slots__ = (
@@ -168,16 +167,14 @@ class Straight:
         motion: Translation,
         edges: list[tuple[int, int]],
         points: list[tuple[QQ, QQ] | None],
-        shift: tuple[QQ, QQ] | None = None,
     ) -> None:
         self.body = body
         self.shape = shape
         self.motion = motion
         self.edges = edges
         self._points = points
-        by_x, by_y = (None, None) if shift is None else shift
-        self.cx, self.vx, c_error, v_error = _linear(motion.x, by_x)
-        self.cy, self.vy, c_of_y, v_of_y = _linear(motion.y, by_y)
+        self.cx, self.vx, c_error, v_error = _linear(motion.x)
+        self.cy, self.vy, c_of_y, v_of_y = _linear(motion.y)
         self.c_error = max(c_error, c_of_y)
         self.v_error = max(v_error, v_of_y)
 
@@ -212,16 +209,13 @@ class Path(NamedTuple):
     w_error: float
 
 
-def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float, float]:
-    """Return the coefficients of a polynomial of degree at most 1, and their errors.
-
-    The first coefficient is greater by ``shift``.
-    """
+def _linear(f: Polynomial) -> tuple[float, float, float, float]:
+    """Return the coefficients of a polynomial of degree at most 1, and their errors."""
     near = f.exact_doubles
-    if near is not None and shift is None:
+    if near is not None:
         return near[0] if near else 0.0, near[1] if len(near) > 1 else 0.0, 0.0, 0.0
     exact = f.exact_coefficients
-    c, c_error = _rounded((exact[0] if exact else QQ(0)) + (shift or 0))
+    c, c_error = _rounded(exact[0] if exact else QQ(0))
     v, v_error = _rounded(exact[1] if len(exact) > 1 else QQ(0))
     return c, v, c_error, v_error
 
@@ -233,77 +227,12 @@ def _rounded(number: QQ) -> tuple[float, float]:
     return near, 0.0 if is_exact else _off(abs(near))
 
 
-def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
-    """Return a point near bodies that lie far from the origin, where doubles would join them.
-
-    Their doubles should be relative to it (`straight_pieces`): the nearest double of a coordinate
-    is off by U times the coordinate, not by U times the distances between bodies. The point is
-    where the first vertex of the first body is at time 0. It changes no result of a filter that
-    uses differences of positions alone.
-
-    Returns:
-        None if all numbers are doubles, a body deforms or is out of the range of doubles, or the
-        bodies are not far from the origin compared with their distances.
-    """
-    if len(bodies) < 2 or all(map(_is_exact, bodies)):
-        return None
-    firsts: list[tuple[float, float]] = []
-    for body in bodies:
-        motion = formulas_of(body.motion)[0]
-        if not isinstance(motion, Translation) or body.exact_shape.keyframes:
-            return None
-        x, y = _first_vertex(body)
-        firsts.append((x + _linear(motion.x)[0], y + _linear(motion.y)[0]))
-    for places in zip(*firsts, strict=True):
-        least, most = min(places), max(places)
-        if max(-least, most) > FAR * (most - least):
-            break
-    else:
-        return None
-    motion = formulas_of(bodies[0].motion)[0]
-    assert isinstance(motion, Translation)  # noqa: S101 - seen above
-    a, b = bodies[0].vertices[0]
-    return a.exact_at(QQ(0)) + motion.x.exact_at(QQ(0)), b.exact_at(QQ(0)) + motion.y.exact_at(
-        QQ(0)
-    )
-
-
-def _first_vertex(body: Body) -> tuple[float, float]:
-    """Return the first vertex of a body at rest, in doubles."""
-    doubles = body.exact_shape.doubles
-    if doubles is not None:
-        return doubles[0][0], doubles[1][0]
-    near = body.exact_shape.near
-    if near is not None:
-        return near.xs[0], near.ys[0]
-    x, y = body.vertices[0]
-    return _constant(x), _constant(y)
-
-
-def _is_exact(body: Body) -> bool:
-    """Return True if doubles have the vertices and the first motion, a translation, exactly."""
-    near, motion = body.exact_shape.near, formulas_of(body.motion)[0]
-    return (
-        isinstance(motion, Translation)
-        and motion.x.exact_doubles is not None
-        and motion.y.exact_doubles is not None
-        and near is not None
-        and near.is_exact
-    )
-
-
-def _constant(f: Polynomial) -> float:
-    return nearest_float(f.exact_at(QQ(0)))
-
-
 def straight_pieces(
-    body: Body, shape: Outline | None = None, origin: tuple[QQ, QQ] | None = None
+    body: Body, shape: Outline | None = None
 ) -> list[tuple[Straight, QQ | None]] | None:
     """Return the straight motions of a body, each with its end; None unless all its motions are.
 
-    Its vertices keep their positions in the rest frame, of which the outline may be given. Doubles
-    are relative to an origin, if there is one, those of vertices to the first vertex. Only pieces
-    with the same origin may be compared.
+    Its vertices keep their positions in the rest frame, of which the outline may be given.
     """
     formulas = formulas_of(body.motion)
     for motion in formulas:
@@ -315,17 +244,8 @@ def straight_pieces(
         return None
     edges = body.edges or [(0, 0)]
     points: list[tuple[QQ, QQ] | None] = [None] * body.size
-    shift: tuple[QQ, QQ] | None = None
-    if origin is not None:
-        places = [(x.exact_at(QQ(0)), y.exact_at(QQ(0))) for x, y in body.vertices]
-        points = [*places]
-        (x, y) = places[0]
-        shape = _nearest((px - x, py - y) for px, py in places)
-        if shape is None:
-            return None
-        shift = x - origin[0], y - origin[1]
     return [
-        (Straight(body, shape, motion, edges, points, shift), end)
+        (Straight(body, shape, motion, edges, points), end)
         for motion, end in zip(formulas, ends, strict=True)
         if isinstance(motion, Translation)
     ]

@@ -11,7 +11,16 @@ from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.filters.rounding import LARGEST, SMALLEST
-from exactpt.kernel.numbers import QQ, Rational, as_doubles, nearest_float, rational, shorten, show
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    as_doubles,
+    nearest_float,
+    of_double,
+    rational,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import Coefficients, Position
 
@@ -124,6 +133,14 @@ class Shape:
                 (Polynomial([x]), Polynomial([y])) for x, y in zip(xs, ys, strict=True)
             )
         return self._positions
+
+    def rest_place(self, vertex: int) -> tuple[QQ, QQ]:
+        """Return a vertex that keeps its place in the rest frame."""
+        if self._positions is None and self.doubles is not None:
+            xs, ys = self.doubles
+            return of_double(xs[vertex]), of_double(ys[vertex])
+        x, y = self.positions[vertex]
+        return x.exact_at(_ZERO), y.exact_at(_ZERO)
 
     @property
     def near(self) -> Places | None:

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from exactpt.motion.float_track import FloatTrack
 
 
-INSTANT: Final = 2.0**-20
-"""A short time, of a normalised span."""
-
 NO_DRIFT: Final = np.zeros((2, 1))
 """The coefficients of a drift that is 0."""
 

@@ -72,7 +72,9 @@ class Scene:
         RoundingError: see `check_rounding`.
     """
 
-    __slots__ = ("bodies", "epoch", "exact_end", "exact_start", "ignoring", "lost", "units")
+    __slots__ = (
+        "bodies", "epoch", "exact_end", "exact_start", "ignoring", "kept_rows", "lost", "units"
+    )  # fmt: skip
 
     def __init__(
         self,
@@ -90,6 +92,7 @@ class Scene:
                 "lost; give scene.bodies"
             )
         self.units, self.epoch = _units_and_epoch(units, epoch)
+        self.kept_rows: object = None  # what a search has read: `exactpt.search.reading`
         self.lost: tuple[str, ...] = ()
         self.bodies: Sequence[Body] = tuple(bodies)
         for i, body in enumerate(self.bodies):
@@ -397,6 +400,8 @@ class Scene:
         """Return a scene that is made of this one, with its units and its epoch."""
         scene = scene_of(bodies, start, end, ignoring)
         scene.units, scene.epoch = self.units, self.epoch
+        if bodies is self.bodies and self.exact_start <= start and end <= self.exact_end:
+            scene.kept_rows = self.kept_rows
         return scene
 
     @property
@@ -523,6 +528,7 @@ def scene_of(bodies: Sequence[Body], start: QQ, end: QQ, ignoring: Groups = ()) 
     scene.ignoring = ignoring
     scene.lost = ()
     scene.units = scene.epoch = None
+    scene.kept_rows = None
     return scene
 
 

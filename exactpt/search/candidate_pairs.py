@@ -1,26 +1,19 @@
-"""The pairs of bodies that come near each other: a filter for questions about all pairs."""
+"""The pairs of bodies that come near each other, and when: for questions about all pairs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import combinations
 from typing import Final, TypeAlias
 
-import numpy as np
-
-from exactpt.geometry.boxes import grown, overlapping_pairs
-from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
-from exactpt.motion.slabs import Near, Slab
-from exactpt.motion.swept_edges import SweptEdges
-from exactpt.pair.straight import span_of
+from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
-from exactpt.search.reading import Rows, straight_rows
-from exactpt.search.sweep_search import SlabsOfAll
+from exactpt.search.reading import rows_of_scene
+from exactpt.search.sweep_search import AllPairs, Slabs
 
 FEW: Final = 4
 """Maximum number of bodies of which all pairs are named at once, if none changes its motion."""
-SLABS: Final = 64
-"""Minimum number of slabs in the time span, of motions that are not linear."""
+SLABS: Final = 64.0
+"""Minimum number of slabs in the time span."""
 
 
 Spans: TypeAlias = "list[tuple[QQ, QQ]]"
@@ -28,7 +21,7 @@ Spans: TypeAlias = "list[tuple[QQ, QQ]]"
 
 
 def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
-    """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect, and when.
+    """Return the pairs i < j of bodies whose boxes, grown to this reach, intersect, and when.
 
     A superset of those whose distance in the maximum norm is ever at most the reach, in order,
     and of the times at which it is. (The radii of rounded bodies are added to it.)
@@ -36,42 +29,16 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
     bodies, start, end = scene.bodies, scene.exact_start, scene.exact_end
     if len(bodies) <= FEW and not any(b.exact_breakpoints_between(start, end) for b in bodies):
         return {pair: [(start, end)] for pair in combinations(range(len(bodies)), 2)}
-    found: dict[tuple[int, int], Spans] = {}
-    rows = straight_rows(bodies, span_of(start, end), reach / 2)
-    if rows is not None:
-        found = _near_rows(rows)
-    else:
-        for now, later, (i, j) in _near_slabs(scene, reach):
-            for pair in zip(i.tolist(), j.tolist(), strict=True):
-                found.setdefault(pair, []).append((now, later))
+    found: dict[tuple[int, int], set[tuple[QQ, QQ]]] = {}
+    rows = rows_of_scene(scene, reach / 2)
+    table, spans, time = rows.table, rows.spans, rows.units.exact_time
+    longest = (rows.span.high - rows.span.low) / SLABS
+    for slab in Slabs(rows, AllPairs(rows, with_themselves=False), longest):
+        low, high = time(slab.low), time(slab.high)
+        for one, two in slab.pairs.rows():
+            i, j = sorted((int(table.body[one]), int(table.body[two])))
+            begin = max(low, spans[one][0], spans[two][0])
+            until = min(high, spans[one][1], spans[two][1])
+            if begin <= until:  # doubles around two spans may meet where the spans do not
+                found.setdefault((i, j), set()).add((begin, until))
     return {pair: sorted(found[pair]) for pair in sorted(found)}
-
-
-def _near_rows(rows: Rows) -> dict[tuple[int, int], Spans]:
-    """Return the pairs of bodies that have rows which come near each other, and when both last."""
-    body, spans = rows.table.body, rows.spans
-    near = {rows for slab in SlabsOfAll(rows) for rows in slab.pairs.rows()}
-    found: dict[tuple[int, int], Spans] = {}
-    for one, two in near:
-        i, j = int(body[one]), int(body[two])
-        start = max(spans[one].start, spans[two].start)
-        end = min(spans[one].end, spans[two].end)
-        if start <= end:  # doubles around two spans may meet where the spans do not
-            found.setdefault((min(i, j), max(i, j)), []).append((start, end))
-    return found
-
-
-def _near_slabs(scene: Scene, reach: QQ) -> Iterator[Slab]:
-    """Yield slabs of time, with the pairs of bodies whose grown boxes intersect in each."""
-    swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
-    units = [power_of_two(-scale) for scale in swept.vertices.normalization.scale]
-    halves = [reach / 2 + body.exact_radius for body in scene.bodies]
-    by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
-
-    def near(now: QQ, later: QQ) -> Near:
-        boxes = swept.of_bodies(swept.during(now, later))
-        i, j = zip(*overlapping_pairs(grown(boxes, by) if by.any() else boxes), strict=True)
-        return np.concatenate(i), np.concatenate(j)
-
-    longest, many = (scene.exact_end - scene.exact_start) / SLABS, 8 * len(scene.bodies) + 64
-    return swept.slabs(near, longest, many, bodies_of=lambda pairs: pairs)

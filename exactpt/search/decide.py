@@ -54,6 +54,7 @@ class Decider:
         self._squares = squares
         self._trace = trace
         self.best: Earliest[Incidence] = Earliest()
+        self._high = math.inf  # a double that is at least the best time, in units of the rows
         self._low = -math.inf  # no candidate that is still to be decided begins before it
         self.exact = 0
 
@@ -75,13 +76,15 @@ class Decider:
     def free_until(self) -> float:
         """Return a double before which no candidate so far begins, as far as it is known now."""
         best = self.best.number
-        return self._low if best is None else min(self._low, best.enclosure()[0])
+        if best is None:
+            return self._low
+        return min(self._low, self._rows.units.enclosure(best)[0])
 
     def _decide_in_doubles(self, found: Candidates, until: float) -> bool:
         """Decide candidates in doubles, all at once; return False if something was rounded."""
         rows = self._rows
         span = rows.span
-        if span.low != span.after:  # the start is no double
+        if span.low != span.after or not rows.units.is_identity:  # the start is no double
             return False
         first = first_exactly(rows.table, found, span.after)
         if not first.holds:
@@ -92,10 +95,18 @@ class Decider:
             time = of_double(first.numerator) / of_double(first.denominator)
             incidences = [self._incidence(*row) for row in first.rows(found)]
             if time <= span.end and time <= of_double(until):
-                self.best.add(time, incidences)
+                self._add(time, incidences)
         if self._trace is not None:
             self._trace.in_doubles(time, incidences)
         return True
+
+    def _add(self, time: QQ | AlgebraicNumber, incidences: Sequence[Incidence]) -> None:
+        """Add a time, and what begins at it."""
+        units, best = self._rows.units, self.best
+        best.add(time, incidences)
+        self._high = best.high
+        if not units.is_identity and best.number is not None:
+            self._high = units.enclosure(best.number)[1]
 
     def _incidence(self, one: int, vertex: int, other: int, edge: int, end: int) -> Incidence:
         """Return the incidence of a vertex inside an edge, or at its end; -1 for no end."""
@@ -108,10 +119,10 @@ class Decider:
         """Decide candidates exactly, in the order of their bounds, up to a time."""
         end = self._rows.span.end
         if math.isfinite(limit):
-            end = min(end, of_double(limit))
+            end = min(end, self._rows.units.exact_time(limit))
         for candidate in candidates:
             self._low = candidate.low
-            if candidate.low > self.best.high:
+            if candidate.low > self._high:
                 return
             check_budget()
             self.exact += 1
@@ -119,21 +130,23 @@ class Decider:
             if self._trace is not None:
                 self._trace.candidate(candidate, begin)
             if begin is not None:
-                self.best.add(begin.time, [begin.incidence])
+                self._add(begin.time, [begin.incidence])
 
     def _first(self, candidate: Candidate, until: QQ) -> Begin | None:
         """Return when two features first touch, up to a time; None if they do not."""
         rows, table = self._rows, self._rows.table
         one, other = candidate.one, candidate.other
-        since = max(rows.spans[one].start, rows.spans[other].start)
-        until = min(until, rows.spans[one].end, rows.spans[other].end)
+        (one_start, one_end), (other_start, other_end) = rows.spans[one], rows.spans[other]
+        since = max(rows.span.start, one_start, other_start)
+        until = min(until, one_end, other_end)
         if not since < until:
             return None
         squared = self._squared(table.body[one], table.body[other])
         if not squared and table.kind[one] == table.kind[other] == STRAIGHT:
             return self._first_of_straight(candidate, since, until)
         if math.isfinite(candidate.low):  # they do not touch before it
-            since = max(since, of_double(math.nextafter(candidate.low, -math.inf)))
+            before = math.nextafter(candidate.low, -math.inf)
+            since = max(since, rows.units.exact_time(before))
         return self._first_of_any(candidate, squared, since, until)
 
     def _squared(self, i: int, j: int) -> QQ:
@@ -179,11 +192,24 @@ class Decider:
             ends = rows.ends_of(other, candidate.edge)
         if len(set(ends)) == 1:  # a point is an edge from its vertex to itself
             ends = ends[:1]
-            touch = vertex_touch(i, vertex, j, ends[0])
+            touch = of_two_vertices(i, vertex, j, ends[0])
         else:
             touch = Incidence(i, vertex, j, candidate.edge, -1)
-        a = rows.bodies[i].exact_piece_after(rows.spans[one].start)
-        b = rows.bodies[j].exact_piece_after(rows.spans[other].start)
+        a = rows.bodies[i].exact_piece_after(rows.spans[one][0])
+        b = rows.bodies[j].exact_piece_after(rows.spans[other][0])
         pair = FeaturePair(touch, a.track(vertex), tuple(map(b.track, ends)))
         time = pair.first_time(squared, AlgebraicNumber(since), until)
-        return None if time is None else Begin(time, pair.touch_at(time, ends))
+        if time is None:
+            return None
+        touch = pair.touch_at(time, ends)
+        if touch.edge < 0:
+            touch = of_two_vertices(touch.body, touch.vertex, touch.other, touch.other_vertex)
+        return Begin(time, touch)
+
+
+def of_two_vertices(body: int, vertex: int, other: int, other_vertex: int) -> Incidence:
+    """Return the incidence of two vertices: that of the lower body, or the lower one, first."""
+    if body == other:
+        lower, higher = sorted((vertex, other_vertex))
+        return Incidence(body, lower, body, -1, higher)
+    return vertex_touch(body, vertex, other, other_vertex)

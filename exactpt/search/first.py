@@ -13,16 +13,14 @@ from exactpt.kernel.budget import bounded
 from exactpt.kernel.numbers import Rational, shorten
 from exactpt.motion.tileable import are_tileable
 from exactpt.pair.contact import Contact
-from exactpt.pair.straight import span_of
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.search.query import Selection
-from exactpt.search.reading import straight_rows
-from exactpt.search.sweep_search import Slab, SlabsOfAll, SweepSearch, slab_of_bodies
+from exactpt.search.reading import rows_of_scene
+from exactpt.search.sweep_search import PairsDuring, SweepSearch, pairs_that_count
 
 if TYPE_CHECKING:
-    from exactpt.search.features_sweep import PairsSearch
-    from exactpt.search.selected import SelectedSearch
+    from exactpt.search.new import NewContactSearch
 
 METHODS: Final = ("kinetic", "pairs", "auto")
 """Names of the methods of `first_contact`."""
@@ -48,8 +46,7 @@ def first_contact(
     Args:
         scene: the bodies, their motions and the time span.
         method: "kinetic" keeps a tiling; "pairs" searches pairs of features without a tiling;
-            "auto" is "pairs" unless a tiling is named or a proof is wanted, or the
-            coefficients of many vertices are out of the range of doubles.
+            "auto" is "pairs" unless a tiling is named or a proof is wanted.
         tiling: the tiling to keep, one of `TILINGS`, or "incremental" for points; "auto" is
             "incremental" if all bodies are points, else "lazy", which has the fewest events.
         exact_only: whether exact arithmetic decides everything, without the float filters.
@@ -173,24 +170,14 @@ def search_for(scene: Scene, question: ContactQuery) -> Search:
         return _proved(scene, question, question.proof)
     exact_only, seconds = question.exact_only, question.max_seconds
     if question.after_start:
-        from exactpt.search.selected import SelectedSearch
-
-        return SelectedSearch(
-            scene,
-            after_start=question.after_start,
-            selection=selection,
-            exact_only=exact_only,
-            max_seconds=seconds,
-        )
+        return _new_search(scene, selection, exact_only=exact_only, max_seconds=seconds)
     method, tiling = question.method, question.tiling
     if not selection.is_all:
         method = "pairs"  # a tiling watches all pairs
     elif question.max_events is not None and method == "auto":
         method = "kinetic" if are_tileable(scene.bodies) else "pairs"
     if searches_pairs(method, tiling):
-        search = pair_search(scene, exact_only=exact_only, selection=selection, max_seconds=seconds)
-        if method == "pairs" or not search.lacks_boxes:
-            return search
+        return pair_search(scene, exact_only=exact_only, selection=selection, max_seconds=seconds)
     from exactpt.tiling.tiling_search import TilingSearch
 
     most = question.max_events
@@ -203,32 +190,33 @@ def pair_search(
     exact_only: bool = False,
     selection: Selection | None = None,
     max_seconds: float | None = None,
-) -> SweepSearch | PairsSearch | SelectedSearch:
-    """Return the search over pairs: a sweep over rows if all bodies move straight.
+) -> SweepSearch:
+    """Return the search over pairs.
 
     Args:
         scene: the bodies, their motions and the time span.
-        exact_only: whether exact arithmetic decides everything, without the float filters.
+        exact_only: whether exact arithmetic decides everything that boxes do not exclude.
         selection: the pairs that count; by default all but those that the scene ignores.
         max_seconds: time limit, in seconds; None for no limit.
     """
     chosen = Selection(scene) if selection is None else selection
-    span = span_of(scene.exact_start, scene.exact_end)
-    rows = None if exact_only else straight_rows(scene.bodies, span)
-    if rows is not None:
-        slabs: Iterable[Slab] = SlabsOfAll(rows, chosen)
-        if chosen.named is not None:
-            slabs = [slab_of_bodies(rows, chosen.named)]
-        return SweepSearch(scene, rows, slabs, max_seconds)
-    if chosen.named is not None:
-        from exactpt.search.selected import SelectedSearch
+    rows = rows_of_scene(scene)
+    pairs = pairs_that_count(rows, chosen)
+    return SweepSearch(scene, rows, pairs, exact_only=exact_only, max_seconds=max_seconds)
 
-        return SelectedSearch(
-            scene, selection=chosen, exact_only=exact_only, max_seconds=max_seconds
-        )
-    from exactpt.search.features_sweep import PairsSearch
 
-    return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, selection=chosen)
+def _new_search(
+    scene: Scene, selection: Selection, *, exact_only: bool, max_seconds: float | None
+) -> NewContactSearch:
+    """Return the search for new contacts."""
+    from exactpt.search.new import NewContactSearch  # few callers ask for it
+
+    rows = rows_of_scene(scene)
+
+    def pairs_but(apart: Sequence[tuple[int, int]]) -> PairsDuring:
+        return pairs_that_count(rows, selection, apart)
+
+    return NewContactSearch(scene, rows, pairs_but, exact_only=exact_only, max_seconds=max_seconds)
 
 
 def _certified(scene: Scene, question: ContactQuery) -> Search:
@@ -296,8 +284,7 @@ def searches_pairs(method: str, tiling: str) -> bool:
 
     For a single first contact from a cold start the search over pairs is the faster one, also
     for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
-    (`python -m benchmarks first-contact`); "auto" leaves it only where it has no boxes
-    (`PairsSearch.lacks_boxes`). Only a tiling can continue after the contact and compute queries
-    about the free space.
+    (`python -m benchmarks first-contact`). Only a tiling can continue after the contact and
+    compute queries about the free space.
     """
     return method == "pairs" or (method == "auto" and tiling == "auto")

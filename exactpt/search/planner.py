@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Final, final
 
+from librt.vecs import vec
+
 from exactpt.brief import counted
+from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import Rational, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion
-from exactpt.motion.outline import is_rigid
+from exactpt.motion.motions import Motion, Translation
 from exactpt.motion.shape import VertexLike
 from exactpt.pair.contact import Contact
 from exactpt.scene.scene import Scene
-from exactpt.search.features_sweep import PairsSearch
-from exactpt.search.obstacles import ActiveInterval, Obstacles
-from exactpt.search.query import Selection
+from exactpt.search.reading import Rows, rows_of_scene
+from exactpt.search.sweep import Pairs, boxes_during, pairs_with_others
 from exactpt.search.sweep_search import SweepSearch
 
 NAME: Final = "shape"
@@ -47,7 +48,7 @@ class Planner:
 
     def __init__(self, obstacles: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         self._scene = Scene(obstacles, time)
-        self._obstacles = Obstacles(self._scene)
+        self._spare: list[Rows] = []  # copies of the rows of the obstacles that are not in use
 
     def __repr__(self) -> str:
         count, span = len(self._scene.bodies), (self._scene.exact_start, self._scene.exact_end)
@@ -87,32 +88,56 @@ class Planner:
             raise InputError(f"body {shorten(at_rest.name)}: the name is taken by an obstacle")
         if not isinstance(motions, Iterable):
             raise InputError(f"motions: a list of them is needed, not {shorten(motions)}")
-        return [self._first(at_rest.with_motion(motion)) for motion in motions]
+        found: list[Contact | None] = []
+        is_valid = False
+        for motion in motions:
+            body = at_rest.with_motion(motion)
+            if not (is_valid and isinstance(motion, Translation)):
+                Scene([body], (self._scene.start, self._scene.end))
+                is_valid = isinstance(motion, Translation)  # others keep it as simple
+            found.append(self._first(body))
+        return found
 
     def _first(self, body: Body) -> Contact | None:
         scene = self._scene
-        Scene([body], (scene.start, scene.end))
-        prepared = self._obstacles.with_body(body)
-        if prepared is not None:
-            rows, near = prepared
-            planned = scene.going_on((*scene.bodies, body), scene.exact_start)
-            return SweepSearch(planned, rows, [near]).run_to_contact()
-        if scene.has_radius or body.exact_radius or not is_rigid(body):  # boxes are those of cores
-            whole = ActiveInterval(
-                scene.exact_start, scene.exact_end, list(range(len(scene.bodies)))
-            )
-            return self._first_during(body, [whole])
-        return self._first_during(body, self._obstacles.active_intervals(body))
+        rows = self._spare.pop() if self._spare else self._rows.copy()  # threads share a planner
+        planned = scene.going_on((*scene.bodies, body), scene.exact_start)
+        with rows.with_body(body):
+            pairs = PairsWithLast(rows, self._boxes)
+            contact = SweepSearch(planned, rows, pairs).run_to_contact()
+        self._spare.append(rows)
+        return contact
 
-    def _first_during(self, body: Body, intervals: Iterable[ActiveInterval]) -> Contact | None:
-        """Return the first contact of a body with obstacles, searched while these are near."""
-        scene = self._scene
-        for interval in intervals:
-            obstacles = [scene.bodies[i] for i in interval.obstacles]
-            names = [obstacle.name for obstacle in obstacles]
-            part = scene.going_on((*obstacles, body), interval.start).until(interval.end)
-            apart = Selection.of_groups(part.bodies, [range(len(obstacles))])
-            contact = PairsSearch(part, selection=apart, ignoring_self=names).run_to_contact()
-            if contact is not None:
-                return contact
-        return None
+    @cached_property
+    def _rows(self) -> Rows:
+        """The rows of all obstacles."""
+        rows = rows_of_scene(self._scene).copy()
+        rows.make_all_pieces()
+        return rows
+
+    @cached_property
+    def _boxes(self) -> vec[float]:
+        """The boxes of these rows during the whole time span."""
+        return boxes_during(self._rows.table, self._rows.span.low, self._rows.span.high)
+
+
+@final
+class PairsWithLast:
+    """The pairs of rows of the last body with the others, and with itself.
+
+    Args:
+        rows: the rows.
+        boxes: the boxes of the rows of the other bodies, during the whole time span.
+    """
+
+    def __init__(self, rows: Rows, boxes: vec[float]) -> None:
+        self._table = rows.table
+        self._boxes = boxes
+
+    def during(self, low: float, high: float) -> Pairs:
+        """See `exactpt.search.sweep_search.PairsDuring`."""
+        return pairs_with_others(self._table, self._boxes, low, high)
+
+    def first_length(self, span: float) -> float:
+        """See `exactpt.search.sweep_search.PairsDuring`: all at once."""
+        return span

@@ -1,29 +1,37 @@
 """From bodies to rows of filters: each body once, in doubles, with bounds on what these lose.
 
-A body becomes a row for each piece of its motion. Most bodies are one ring or one point whose
-numbers are doubles; they are read without rationals. Others go through `straight_pieces`, which
-rounds them, relative to a point near them if they are far from the origin.
+A body becomes a row for each piece of its motion. Most bodies are one ring or one point in straight
+motion whose numbers are doubles; they are read without rationals. Others go through `BodyRows`
+(`exactpt.search.body_rows`), which rounds them. Rows of a scene that is far from the origin, or
+tiny, are in units of their own (`exactpt.search.units`).
+
+A body that turns at a constant rate has as many pieces as one asks for. It gets a row of the kind
+`WAITING` at first, and pieces only when another body comes near that (`Rows.make_pieces`).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
+from collections.abc import Hashable, Iterator, Sequence
+from contextlib import contextmanager
+from itertools import count
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
-from exactpt.filters.rows import EXACT, FRAME, PATH_Y, STRAIGHT, Errors, Piece, Table
+from exactpt.filters.rows import EXACT, FRAME, PATH_Y, STRAIGHT, Piece, Table
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, enclosing_floats, of_double
+from exactpt.kernel.numbers import QQ, enclosing_floats, of_double, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.motion.outline import Straight, far_origin, straight_pieces
-from exactpt.pair.straight import Span, span_of
+from exactpt.motion.normalization import Normalization
+from exactpt.pair.straight import Span
+from exactpt.scene.scene import Scene
+from exactpt.search.body_rows import BodyRows, Row, frame_of
+from exactpt.search.units import PLAIN, are_plain_places, are_plain_times, units_of
 
 if TYPE_CHECKING:
     from exactpt.scene.body_arrays import BodyArrays
 
 
-Point: TypeAlias = "tuple[QQ, QQ]"
 NOTHING: Final = QQ(0)
 OFTEN: Final = 64
 """Number of bodies read without rationals between two looks at the budget."""
@@ -44,43 +52,56 @@ class Rows:
 
     Args:
         bodies: the bodies.
-        span: the time span of the question.
+        start: the start of the time span.
+        end: its end.
         extra: what is added to the radius of each body.
-        origin: a point that doubles are relative to; None for the origin of coordinates.
+        units: what doubles are relative to.
 
     Attributes:
         bodies: as given.
-        span: as given.
+        units: as given.
+        span: the time span: exactly, and in doubles.
         table: the rows, in doubles.
-        spans: of each row the exact span of its piece of motion, within the time span.
+        spans: of each row the exact start and end of its piece of motion, within the time span.
         has_radius: whether a body has a radius.
+        are_straight: whether all pieces are straight.
     """
 
     def __init__(
         self,
         bodies: Sequence[Body],
-        span: Span,
+        start: QQ,
+        end: QQ,
         extra: QQ = NOTHING,
-        origin: Point | None = None,
+        units: Normalization = PLAIN,
     ) -> None:
         self.bodies = bodies
-        self.span = span
+        self.units = units
+        self.span = Span(start, end, *units.time(start), units.time(end)[1])
         self.table = Table()
-        self.spans: list[Span] = []
+        self.spans: list[tuple[QQ, QQ]] = []
         self.has_radius = False
+        self.are_straight = True
         self._extra = extra
-        self._origin = origin
-        self._motions: dict[int, Straight] = {}
+        self._waiting: dict[int, BodyRows] = {}
+        self._paths: dict[int, MovingPoint] = {}
+        self._together: dict[Hashable, int] = {}
+
+    def is_exact(self, row: int) -> bool:
+        """Return True if doubles have a row of the kind `STRAIGHT` exactly."""
+        table = self.table
+        errors = table.place_error[row], table.path_error[row], table.speed_error[row]
+        return self.units.is_identity and errors == (0.0, 0.0, 0.0)
 
     def moving_point(self, row: int, vertex: int) -> MovingPoint:
-        """Return the exact motion of a vertex of a row."""
-        straight = self._motions.get(row)
-        if straight is not None:
-            (px, py), (cx, cy, vx, vy) = straight.point(vertex), straight.line()
-            return MovingPoint(cx + px, cy + py, vx, vy)
-        table, at = self.table, int(FRAME) * row
-        place, frames = table.place[row] + vertex, table.frames
-        at_y = at + int(PATH_Y)
+        """Return the exact motion of a vertex of a row of the kind `STRAIGHT`."""
+        table = self.table
+        if not self.is_exact(row):
+            cx, cy, vx, vy = self._path_of(row)
+            x, y = self.bodies[table.body[row]].exact_shape.rest_place(vertex)
+            return MovingPoint(cx + x, cy + y, vx, vy)
+        at, place = int(FRAME) * row, table.place[row] + vertex
+        at_y, frames = at + int(PATH_Y), table.frames
         return MovingPoint(
             of_double(frames[at]) + of_double(table.xs[place]),
             of_double(frames[at_y]) + of_double(table.ys[place]),
@@ -88,39 +109,107 @@ class Rows:
             of_double(frames[at_y + 1]),
         )
 
+    def _path_of(self, row: int) -> MovingPoint:
+        """Return the exact translation of a row of the kind `STRAIGHT`: where it takes 0."""
+        known = self._paths.get(row)
+        if known is None:
+            body = self.bodies[self.table.body[row]]
+            motion = body.exact_piece_after(self.spans[row][0]).motion
+            assert isinstance(motion, Translation)  # noqa: S101 - the kind says so
+            x, y = ([*f.exact_coefficients, NOTHING, NOTHING] for f in (motion.x, motion.y))
+            self._paths[row] = known = MovingPoint(x[0], y[0], x[1], y[1])
+        return known
+
     def ends_of(self, row: int, edge: int) -> tuple[int, int]:
         """Return the vertices at the ends of an edge of a row; of a point both are its vertex."""
         number = self.table.edge[row] + edge
         return self.table.begins[number], self.table.ends[number]
 
-    def with_body(self, body: Body) -> Rows | None:
-        """Return these rows with those of one more body; None if it does not move straight."""
-        more = Rows((*self.bodies, body), self.span, self._extra, self._origin)
-        more.table, more.spans = self.table.copy(), self.spans.copy()
-        more.has_radius = self.has_radius
-        more._motions = self._motions.copy()
-        return more if more.add_from(len(self.bodies)) else None
+    def copy(self) -> Rows:
+        """Return equal rows, to which others can be added without a change of these."""
+        return self._copied(self.span.start, self.span.end, self._extra)
 
-    def add_exact_ones(self) -> int:
-        """Add the bodies up to the first that doubles do not have exactly; return its number."""
-        for number, body in enumerate(self.bodies):
+    def during(self, start: QQ, end: QQ) -> Rows:
+        """Return these rows for another time span, within that of these."""
+        is_same = (start, end) == (self.span.start, self.span.end)
+        if is_same and not self._waiting:
+            return self
+        return self._copied(start, end, self._extra)
+
+    def grown(self, extra: QQ) -> Rows:
+        """Return these rows with larger radii, by what is added to the radius of each body."""
+        rows = self._copied(self.span.start, self.span.end, self._extra + extra)
+        table = rows.table
+        reach = [rows.reach(body.exact_radius) for body in rows.bodies]
+        for row in range(table.count()):
+            table.radius[row] = reach[table.body[row]]
+        return rows
+
+    def _copied(self, start: QQ, end: QQ, extra: QQ) -> Rows:
+        """Return a copy, for a time span, with what is added to each radius.
+
+        Rows that wait have no pieces before the start.
+        """
+        other = Rows(self.bodies, start, end, extra, self.units)
+        other.table, other.spans = self.table.copy(), self.spans.copy()
+        other.has_radius, other.are_straight = self.has_radius, self.are_straight
+        other._together = self._together
+        for row, reader in self._waiting.items():
+            other._waiting[row] = reader.adding_to(other.table)
+            other.spans[row] = max(start, self.spans[row][0]), end
+            other.table.start[row] = max(other.span.low, self.table.start[row])
+        return other
+
+    @contextmanager
+    def with_body(self, body: Body) -> Iterator[None]:
+        """Have the rows of one more body, for a while."""
+        before, mark, first = self.bodies, self.table.mark(), len(self.spans)
+        has_radius, are_straight = self.has_radius, self.are_straight
+        number = len(before)
+        self.bodies = (*before, body)
+        try:
+            if not (self.units.is_identity and self._add_doubles(number, body)):
+                self._add_rounded(number, body)
+            yield
+        finally:
+            self.bodies = before
+            self.table.cut(mark)
+            del self.spans[first:]
+            self.has_radius, self.are_straight = has_radius, are_straight
+            self._waiting.pop(first, None)
+            for row in [row for row in self._paths if row >= first]:
+                del self._paths[row]
+
+    def add_all(self) -> bool:
+        """Add all bodies; return True if doubles have all of them exactly."""
+        bodies = self.bodies
+        if self.units.is_identity and not isinstance(bodies, (tuple, list)):
+            from exactpt.scene.body_arrays import BodyArrays  # it imports numpy
+
+            if isinstance(bodies, BodyArrays) and self._add_arrays(bodies):
+                return True
+        is_exact = True
+        for number, body in enumerate(bodies):
             if number % OFTEN == 0:
                 check_budget()
-            if not self._add_doubles(number, body):
-                return number
-        return len(self.bodies)
+            if not (self.units.is_identity and self._add_doubles(number, body)):
+                check_budget()
+                self._add_rounded(number, body)
+                is_exact = False
+        return is_exact
 
-    def add_from(self, first: int) -> bool:
-        """Add the bodies from a number on; return False if one of them does not move straight."""
-        for number in range(first, len(self.bodies)):
-            check_budget()
-            body = self.bodies[number]
-            is_added = self._origin is None and self._add_doubles(number, body)
-            if not is_added and not self._add_rounded(number, body):
-                return False
-        return True
+    def _add_rounded(self, number: int, body: Body) -> None:
+        """Add a body in any motion, or a row that waits for its pieces."""
+        radius = self.reach(body.exact_radius)
+        reader = BodyRows(self.table, self.units, number, body, radius, self._together)
+        waiting = reader.waiting(self.span)
+        if waiting is None:
+            self._add_pieces(reader, self.span.start, self.span.end)
+        else:
+            self._waiting[len(self.spans)] = reader
+            self._add(waiting)
 
-    def add_arrays(self, bodies: BodyArrays) -> bool:
+    def _add_arrays(self, bodies: BodyArrays) -> bool:
         """Add bodies in arrays, without making them; return False if one does not move straight."""
         if bodies.coefficients[:, :, 2:].any():
             return False
@@ -133,21 +222,80 @@ class Rows:
             if closed[number] and len(some) > 3 and some[0] == some[-1]:
                 some.pop()  # as in a `Body`, a ring may repeat its first vertex
             outline = [place[0] for place in some], [place[1] for place in some]
-            reach = self._reach(QQ(radii[number]))
-            self._add_exact(number, outline, (x, y), reach, is_ring=closed[number])
+            reach = self.reach(QQ(radii[number]))
+            size = len(some)
+            edges = None
+            if size > 1 and (size == 2 or not closed[number]):
+                edges = [(k, k + 1) for k in range(size - 1)]
+            self._add_exact(number, outline, (x, y), reach, edges)
         return True
 
+    def make_pieces(self, row: int, until: float, most: int) -> float:
+        """Add the next pieces of a row that is `WAITING`, as far as they begin before a double.
+
+        The row lasts from then on.
+
+        Args:
+            row: the row.
+            until: the double.
+            most: the maximum number of pieces.
+
+        Returns:
+            A time up to which there are pieces now; infinite if the row waits no more.
+        """
+        start, end = self.spans[row]
+        last = min(end, self.units.exact_time(until)) if math.isfinite(until) else end
+        made = self._add_pieces(self._waiting[row], start, last, most)
+        self.spans[row] = made, end
+        self.table.start[row] = self.units.time(made)[0] if made < end else math.inf
+        return self.table.start[row]
+
+    def make_all_pieces(self) -> None:
+        """Add the pieces of all rows that are `WAITING`."""
+        for row in self._waiting:
+            while self.make_pieces(row, math.inf, OFTEN) < math.inf:
+                check_budget()
+        self._waiting = {}
+
+    def _add_pieces(self, reader: BodyRows, start: QQ, until: QQ, most: int | None = None) -> QQ:
+        """Add the pieces of a body from a time on, until one ends at a time or after it.
+
+        Args:
+            reader: reads the body.
+            start: the begin of the first piece.
+            until: the time.
+            most: the maximum number of pieces; None for no limit.
+
+        Returns:
+            The end of the last piece.
+        """
+        for _ in count() if most is None else range(most):
+            row = reader.row_after(start, self.span)
+            self._add(row)
+            start = row.end
+            if start >= until:
+                break
+            check_budget()
+        return start
+
+    def _add(self, row: Row) -> None:
+        self.spans.append((row.start, row.end))
+        self.table.add_piece(row.piece)
+        self.are_straight &= row.piece.kind == STRAIGHT
+
     def _add_doubles(self, number: int, body: Body) -> bool:
-        """Add a body of one ring or chain in one straight piece, if doubles have it exactly."""
+        """Add a body in one straight piece, if doubles have it exactly."""
         doubles, motion = body.exact_shape.doubles, body.motion
-        if doubles is None or type(motion) is not Translation or body.has_rings:
+        if doubles is None or type(motion) is not Translation:
             return False
         x, y = motion.x.exact_doubles, motion.y.exact_doubles
         if x is None or y is None or len(x) > 2 or len(y) > 2:
             return False
-        self._add_exact(
-            number, doubles, (x, y), self._reach(body.exact_radius), is_ring=body.closed
-        )
+        size, radius = len(doubles[0]), self.reach(body.exact_radius)
+        edges = None
+        if size > 1 and (body.has_rings or not body.closed or size == 2):
+            edges = body.edges
+        self._add_exact(number, doubles, (x, y), radius, edges)
         return True
 
     def _add_exact(
@@ -156,17 +304,15 @@ class Rows:
         outline: tuple[list[float], list[float]],
         path: tuple[Sequence[float], Sequence[float]],
         radius: float,
-        *,
-        is_ring: bool,
+        edges: list[tuple[int, int]] | None,
     ) -> None:
-        """Add a body whose places and translation are doubles."""
+        """Add a body whose places and translation are doubles; a ring or a point without edges."""
         (xs, ys), (x, y) = outline, path
-        span, size = self.span, len(xs)
-        self.spans.append(span)
-        if size == 1 or (is_ring and size > 2):
+        span = self.span
+        self.spans.append((span.start, span.end))
+        if edges is None:
             self.table.add_straight(number, span.low, span.high, xs, ys, tuple(x), tuple(y), radius)
             return
-        edges = [(k, k + 1) for k in range(size - 1)]
         self.table.add_piece(
             Piece(
                 body=number,
@@ -174,7 +320,7 @@ class Rows:
                 start=span.low,
                 end=span.high,
                 place=self.table.add_places(xs, ys),
-                size=size,
+                size=len(xs),
                 edge=self.table.add_edges(edges),
                 edges=len(edges),
                 frame=frame_of(x, y),
@@ -185,89 +331,44 @@ class Rows:
             )
         )
 
-    def _add_rounded(self, number: int, body: Body) -> bool:
-        """Add a body whose numbers are rounded; return False if it does not move straight."""
-        pieces = straight_pieces(body, origin=self._origin)
-        if pieces is None:
-            return False
-        table, shape = self.table, pieces[0][0].shape
-        place = table.add_places(shape.xs, shape.ys)
-        edges = body.edges or [(0, 0)]
-        edge = table.add_edges(edges)
-        box = (shape.low_x, shape.high_x, shape.low_y, shape.high_y)
-        radius = self._reach(body.exact_radius)
-        for straight, span in _during(pieces, self.span):
-            self._motions[len(self.spans)] = straight
-            self.spans.append(span)
-            table.add_piece(
-                Piece(
-                    body=number,
-                    kind=int(STRAIGHT),
-                    start=span.low,
-                    end=span.high,
-                    place=place,
-                    size=body.size,
-                    edge=edge,
-                    edges=len(edges),
-                    frame=frame_of((straight.cx, straight.vx), (straight.cy, straight.vy)),
-                    box=box,
-                    errors=Errors(shape.error, straight.c_error, straight.v_error),
-                    radius=radius,
-                    deforms=False,
-                )
-            )
-        return True
-
-    def _reach(self, radius: QQ) -> float:
+    def reach(self, radius: QQ) -> float:
         """Return a double that is at least a radius and what is added; 0 only if that is 0."""
         self.has_radius |= radius > 0
         reach = radius + self._extra
-        return enclosing_floats(reach)[1] if reach else 0.0
+        if not reach:
+            return 0.0
+        return enclosing_floats(reach * power_of_two(-self.units.scale[0]))[1]
 
 
-def frame_of(x: Sequence[float], y: Sequence[float]) -> list[float]:
-    """Return the frame of a translation whose coefficients are two at most."""
-    frame = [0.0] * int(FRAME)
-    frame[: len(x)] = x
-    frame[int(PATH_Y) : int(PATH_Y) + len(y)] = y
-    return frame
-
-
-def _during(
-    pieces: Sequence[tuple[Straight, QQ | None]], span: Span
-) -> Iterator[tuple[Straight, Span]]:
-    """Yield the pieces of a motion within a span, each with its own."""
-    since = span.start
-    for straight, until in pieces:
-        if until is None or until >= span.end:
-            yield straight, span_of(since, span.end)
-            return
-        if until > since:
-            yield straight, span_of(since, until)
-            since = until
-
-
-def straight_rows(bodies: Sequence[Body], span: Span, extra: QQ = NOTHING) -> Rows | None:
-    """Return the rows of some bodies; None unless all move straight, and doubles have the span.
+def rows_of(bodies: Sequence[Body], start: QQ, end: QQ, extra: QQ = NOTHING) -> Rows:
+    """Return the rows of some bodies.
 
     Args:
         bodies: the bodies.
-        span: the time span of the question.
+        start: the start of the time span of the question.
+        end: its end.
         extra: what is added to the radius of each body.
     """
-    if not (math.isfinite(span.low) and math.isfinite(span.high)):
-        return None  # of the table, times are finite
-    rows = Rows(bodies, span, extra)
-    if not isinstance(bodies, (tuple, list)):
-        from exactpt.scene.body_arrays import BodyArrays  # it imports numpy
-
-        if isinstance(bodies, BodyArrays):
-            return rows if rows.add_arrays(bodies) else None
-    first = rows.add_exact_ones()
-    if first < len(bodies):
-        origin = far_origin(bodies)
-        if origin is not None:
-            rows, first = Rows(bodies, span, extra, origin), 0
-        if not rows.add_from(first):
-            return None
+    rows = Rows(bodies, start, end, extra)
+    if are_plain_times(rows.span.low, rows.span.high):
+        is_exact = rows.add_all()
+        if is_exact or are_plain_places(rows.table, rows.span.low):
+            return rows
+    rows = Rows(bodies, start, end, extra, units_of(bodies, start, end))
+    rows.add_all()
     return rows
+
+
+def rows_of_scene(scene: Scene, extra: QQ = NOTHING) -> Rows:
+    """Return the rows of the bodies of a scene, which keeps them for the next question.
+
+    Args:
+        scene: the scene.
+        extra: what is added to the radius of each body.
+    """
+    start, end = scene.exact_start, scene.exact_end
+    kept = scene.kept_rows
+    if not isinstance(kept, Rows):
+        scene.kept_rows = kept = rows_of(scene.bodies, start, end)
+    rows = kept.during(start, end)  # pieces are made for one question: threads may share a scene
+    return rows.grown(extra) if extra else rows

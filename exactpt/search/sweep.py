@@ -15,18 +15,29 @@ So most pairs are never compared. All of this is in doubles, within the bounds o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
 from exactpt.filters import straight
-from exactpt.filters.boxes import during, of_piece, sorted_by, strips
+from exactpt.filters.boxes import Drift, during, of_piece, sorted_by, strips
 from exactpt.filters.candidates import Candidates
 from exactpt.filters.features import Filter
 from exactpt.filters.rounding import INFINITY
-from exactpt.filters.rows import BOX, COEFFICIENTS, FRAME, OWN, STRAIGHT, Table
+from exactpt.filters.rows import (
+    BOX,
+    COEFFICIENTS,
+    FRAME,
+    GENERAL,
+    OWN,
+    OWN_Y,
+    PATH_Y,
+    STRAIGHT,
+    WAITING,
+    Table,
+)
 from exactpt.filters.separation import are_separated
 from exactpt.filters.starts import are_disjoint
 from exactpt.kernel.budget import check_budget
@@ -40,14 +51,18 @@ SAMPLE: Final[i64] = 256
 
 
 class Ignored:
-    """Groups of bodies that ignore each other.
+    """Bodies that ignore each other.
 
     Args:
         groups: for each body the numbers of its groups, in increasing order; empty if no body is
             in a group.
+        pairs: pairs i < j of bodies that ignore each other, beside those of the groups.
     """
 
-    def __init__(self, groups: Sequence[Sequence[int]] = ()) -> None:
+    def __init__(
+        self, groups: Sequence[Sequence[int]] = (), pairs: Iterable[tuple[int, int]] = ()
+    ) -> None:
+        self._pairs = frozenset(pairs)
         self._first = vec[i64]()
         self._numbers = vec[i64]()
         for some in groups:
@@ -57,7 +72,9 @@ class Ignored:
         self._first = append(self._first, i64(len(self._numbers)))
 
     def has(self, i: i64, j: i64) -> bool:
-        """Return True if two different bodies share a group."""
+        """Return True if two different bodies ignore each other."""
+        if self._pairs and (int(min(i, j)), int(max(i, j))) in self._pairs:
+            return True
         first, numbers = self._first, self._numbers
         if len(first) == 1:
             return False
@@ -78,9 +95,12 @@ class Pairs:
     Attributes:
         one, two: the rows of each pair.
         enter, leave: bounds of the times at which they may touch.
+        waiting: rows of the kind `WAITING` that others may touch: with their pieces, pairs are to
+            be found anew.
     """
 
     def __init__(self) -> None:
+        self.waiting: set[int] = set()
         self.one = vec[i64]()
         self.two = vec[i64]()
         self.enter = vec[float]()
@@ -91,16 +111,21 @@ class Pairs:
         return len(self.one)
 
     def add(self, table: Table, one: i64, two: i64, low: float, high: float) -> None:
-        """Add two rows, unless they certainly do not touch in [low, high]."""
+        """Add two rows, or a row with itself, unless they certainly do not touch in [low, high]."""
         enter = max(low, table.start[one], table.start[two])
         leave = min(high, table.end[one], table.end[two])
         if are_straight(table, one, two):
             enter, leave = straight.meeting(table, one, two, enter, leave)
-        if enter <= leave:
-            self.one = append(self.one, one)
-            self.two = append(self.two, two)
-            self.enter = append(self.enter, enter)
-            self.leave = append(self.leave, leave)
+        if not enter <= leave:
+            return
+        if table.kind[one] == WAITING:
+            self.waiting.add(int(one))
+        if table.kind[two] == WAITING:
+            self.waiting.add(int(two))
+        self.one = append(self.one, one)
+        self.two = append(self.two, two)
+        self.enter = append(self.enter, enter)
+        self.leave = append(self.leave, leave)
 
     def rows(self) -> list[tuple[int, int]]:
         """Return the pairs of rows, in the order in which they were found."""
@@ -119,55 +144,71 @@ def are_straight(table: Table, one: i64, two: i64) -> bool:
     return table.radius[one] + table.radius[two] == 0.0
 
 
-class Drift:
-    """A velocity that many rows have in common, and a time in which they meet others.
+def move_together(table: Table, one: i64, two: i64) -> bool:
+    """Return True if two rows keep their places beside each other: they do not begin to touch."""
+    return one != two and table.together[one] != 0 and table.together[one] == table.together[two]
 
-    Any drift and any stride are right: they are estimates, of a sample.
+
+class Flow:
+    """A path that many rows have in common, and a time in which they meet others.
+
+    Any path and any stride are right: they are estimates, of a sample.
 
     Attributes:
-        x, y: the median of the velocities; boxes are relative to it, as what all have in common
-            brings no two of them nearer.
+        drift: the path with the median velocity and acceleration; boxes are relative to it, as
+            what all have in common brings no two of them nearer.
         stride: the time in which rows move, on average, by the mean distance of neighbours.
     """
 
-    def __init__(self, x: float, y: float, stride: float) -> None:
-        self.x = x
-        self.y = y
+    def __init__(self, drift: Drift, stride: float) -> None:
+        self.drift = drift
         self.stride = stride
 
 
-def drift_of(table: Table, now: float) -> Drift:
+def flow_of(table: Table, now: float) -> Flow:
     """Estimate the drift and the stride of the rows at a time."""
     n: i64 = len(table.body)
     if n == 0:
-        return Drift(0.0, 0.0, INFINITY)
+        return Flow(Drift(), INFINITY)
     step = max(n // SAMPLE, 1)
     speeds_x, speeds_y = vec[float](), vec[float]()
+    bends_x, bends_y = vec[float](), vec[float]()
     left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
     k: i64 = 0
     while k < n:
+        if table.kind[k] == GENERAL:
+            k += step
+            continue
         coefficients, at = table.frames, FRAME * k
         x = coefficients[at] + 0.5 * (table.boxes[BOX * k] + table.boxes[BOX * k + 1])
-        y = coefficients[at + 4] + 0.5 * (table.boxes[BOX * k + 2] + table.boxes[BOX * k + 3])
+        y = coefficients[at + PATH_Y] + 0.5 * (table.boxes[BOX * k + 2] + table.boxes[BOX * k + 3])
         if table.kind[k] == OWN:
             coefficients, at = table.own, COEFFICIENTS * table.place[k]
-            x, y = coefficients[at], coefficients[at + 4]
-        speeds_x = append(speeds_x, speed_at(coefficients, at, now))
-        speeds_y = append(speeds_y, speed_at(coefficients, at + 4, now))
+            x, y = coefficients[at], coefficients[at + OWN_Y]
+        local = now - table.origin[k]
+        speeds_x = append(speeds_x, speed_at(coefficients, at, local))
+        speeds_y = append(speeds_y, speed_at(coefficients, at + PATH_Y, local))
+        bends_x = append(bends_x, bend_at(coefficients, at, local))
+        bends_y = append(bends_y, bend_at(coefficients, at + PATH_Y, local))
         left, right, bottom, top = min(left, x), max(right, x), min(bottom, y), max(top, y)
         k += step
-    drift_x, drift_y = median(speeds_x), median(speeds_y)
-    total = 0.0
     m: i64 = len(speeds_x)
+    if m == 0:
+        return Flow(Drift(), INFINITY)
+    speed_x, speed_y = median(speeds_x), median(speeds_y)
+    bend_x, bend_y = median(bends_x), median(bends_y)
+    # of a path with this velocity and this bend at the time
+    drift = Drift(speed_x - 2.0 * bend_x * now, speed_y - 2.0 * bend_y * now, bend_x, bend_y)
+    total = 0.0
     k = 0
     while k < m:
-        total += abs(speeds_x[k] - drift_x) + abs(speeds_y[k] - drift_y)
+        total += abs(speeds_x[k] - speed_x) + abs(speeds_y[k] - speed_y)
         k += 1
     mean_speed = total / float(m)
     if not mean_speed > 0.0:
-        return Drift(drift_x, drift_y, INFINITY)
+        return Flow(drift, INFINITY)
     mean_distance = ((right - left) + (top - bottom)) / float(n) ** 0.5
-    return Drift(drift_x, drift_y, mean_distance / mean_speed)
+    return Flow(drift, mean_distance / mean_speed)
 
 
 def speed_at(coefficients: vec[float], at: i64, t: float) -> float:
@@ -176,15 +217,37 @@ def speed_at(coefficients: vec[float], at: i64, t: float) -> float:
     return coefficients[at + 1] + t * bend
 
 
+def bend_at(coefficients: vec[float], at: i64, t: float) -> float:
+    """Return about half the second derivative of a polynomial of degree 3."""
+    return coefficients[at + 2] + 3.0 * t * coefficients[at + 3]
+
+
 def median(values: vec[float]) -> float:
     """Return a median of some values, one or more."""
     n: i64 = len(values)
     return values[sorted_by(values)[n // 2]]
 
 
-def pairs_during(table: Table, ignored: Ignored, low: float, high: float, drift: Drift) -> Pairs:
-    """Return the pairs of rows of different bodies that may touch in [low, high]."""
-    active, boxes = during(table, low, high, drift.x, drift.y)
+def pairs_during(
+    table: Table,
+    ignored: Ignored,
+    low: float,
+    high: float,
+    drift: Drift,
+    *,
+    with_themselves: bool = True,
+) -> Pairs:
+    """Return the pairs of rows that may touch in [low, high].
+
+    Args:
+        table: the rows.
+        ignored: bodies that ignore each other.
+        low: the start.
+        high: the end.
+        drift: what boxes are relative to.
+        with_themselves: whether rows that may touch themselves are pairs with themselves.
+    """
+    active, boxes = during(table, low, high, drift)
     met = strips(boxes, 0)
     pairs = Pairs()
     k: i64 = 0
@@ -196,54 +259,76 @@ def pairs_during(table: Table, ignored: Ignored, low: float, high: float, drift:
         i, j = table.body[one], table.body[two]
         if i != j and not ignored.has(i, j):
             pairs.add(table, one, two, low, high)
+    k = 0
+    while with_themselves and k < len(active):
+        add_itself(pairs, table, active[k], low, high)
+        k += 1
     return pairs
+
+
+def add_itself(pairs: Pairs, table: Table, row: i64, low: float, high: float) -> None:
+    """Add a row and itself, if its vertices may touch its own edges in [low, high]."""
+    if table.deforms[row] == 1:
+        pairs.add(table, row, row, low, high)
 
 
 def pairs_of_bodies(
     table: Table, bodies: Sequence[tuple[int, int]], low: float, high: float
 ) -> Pairs:
-    """Return the pairs of rows of given pairs of bodies that may touch in [low, high].
-
-    Args:
-        table: the rows, those of a body one after the other.
-        bodies: pairs of different bodies.
-        low: the start.
-        high: the end.
-    """
-    first, count = rows_of_bodies(table)
+    """Return the pairs of rows of given pairs of different bodies that may touch in [low, high]."""
+    rows = rows_of_bodies(table)
     pairs = Pairs()
     for i, j in bodies:
         check_budget()
-        one = first[i]
-        while one < first[i] + count[i]:
-            two = first[j]
-            while two < first[j] + count[j]:
-                pairs.add(table, one, two, low, high)
-                two += 1
-            one += 1
+        add_pieces(pairs, table, rows[i], rows[j], low, high)
     return pairs
 
 
-def rows_of_bodies(table: Table) -> tuple[vec[i64], vec[i64]]:
-    """Return the first row of each body that has one, and the number of its rows."""
-    first, count = vec[i64](), vec[i64]()
+def rows_of_bodies(table: Table) -> list[list[int]]:
+    """Return the rows of each body, in the order of time."""
+    rows: list[list[int]] = []
+    order = sorted_by(table.start)
     k: i64 = 0
-    while k < len(table.body):
-        body = table.body[k]
-        while len(first) <= body:
-            first = append(first, k)
-            count = append(count, 0)
-        count[body] += 1
+    while k < len(order):
+        row = order[k]
+        while len(rows) <= table.body[row]:
+            rows.append([])
+        rows[table.body[row]].append(int(row))
         k += 1
-    return first, count
+    return rows
+
+
+def add_pieces(
+    pairs: Pairs, table: Table, ones: list[int], twos: list[int], low: float, high: float
+) -> None:
+    """Add the pairs of rows of two bodies that last at one time, by their doubles.
+
+    Args:
+        pairs: takes them.
+        table: the rows.
+        ones: the rows of a body, in the order of time.
+        twos: those of another body.
+        low: the start.
+        high: the end.
+    """
+    first = 0  # of the rows that have not ended
+    for k in ones:
+        one = i64(k)
+        while first < len(twos) and table.end[i64(twos[first])] < table.start[one]:
+            first += 1
+        m = first
+        while m < len(twos) and table.start[i64(twos[m])] <= table.end[one]:
+            pairs.add(table, one, i64(twos[m]), low, high)
+            m += 1
 
 
 def boxes_during(table: Table, low: float, high: float) -> vec[float]:
-    """Return the boxes of all rows in [low, high], `BOX` numbers each."""
-    boxes = vec[float]()
+    """Return the boxes of all rows while they last in [low, high], `BOX` numbers each."""
+    boxes, still = vec[float](), Drift()
     k: i64 = 0
     while k < len(table.body):
-        left, right, bottom, top = of_piece(table, k, low, high, 0.0, 0.0)
+        first, last = max(low, table.start[k]), min(high, table.end[k])
+        left, right, bottom, top = of_piece(table, k, first, last, still)
         boxes = append(boxes, left)
         boxes = append(boxes, right)
         boxes = append(boxes, bottom)
@@ -253,7 +338,7 @@ def boxes_during(table: Table, low: float, high: float) -> vec[float]:
 
 
 def pairs_with_others(table: Table, boxes: vec[float], low: float, high: float) -> Pairs:
-    """Return the pairs of one of the last rows and one of the first that may touch in [low, high].
+    """Return the pairs of one of the last rows, and of one of the first or itself, that may touch.
 
     Args:
         table: the rows; the last ones are of another body than the first ones.
@@ -261,12 +346,13 @@ def pairs_with_others(table: Table, boxes: vec[float], low: float, high: float) 
         low: the start.
         high: the end.
     """
-    pairs = Pairs()
+    pairs, still = Pairs(), Drift()
     others: i64 = len(boxes) // BOX
     row = others
     while row < len(table.body):
         check_budget()
-        left, right, bottom, top = of_piece(table, row, low, high, 0.0, 0.0)
+        first, last = max(low, table.start[row]), min(high, table.end[row])
+        left, right, bottom, top = of_piece(table, row, first, last, still)
         k: i64 = 0
         while k < others:
             at = BOX * k
@@ -275,11 +361,14 @@ def pairs_with_others(table: Table, boxes: vec[float], low: float, high: float) 
             if not is_beside and not is_above:
                 pairs.add(table, row, k, low, high)
             k += 1
+        add_itself(pairs, table, row, low, high)
         row += 1
     return pairs
 
 
-def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[tuple[int, int]]:
+def near_at_start(
+    table: Table, pairs: Pairs, low: float, high: float, *, exact_only: bool = False
+) -> list[tuple[int, int]]:
     """Return the pairs i < j of bodies that may touch at a start between two doubles, sorted.
 
     Args:
@@ -287,7 +376,9 @@ def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[t
         pairs: all pairs of rows that may touch at the start, and others.
         low: at most the start.
         high: at least the start.
+        exact_only: whether all pairs are returned whose boxes meet.
     """
+    is_at_double = low == high and not exact_only
     found: set[tuple[int, int]] = set()
     windows = Filter(table)
     k: i64 = 0
@@ -295,7 +386,10 @@ def near_at_start(table: Table, pairs: Pairs, low: float, high: float) -> list[t
         one, two = pairs.one[k], pairs.two[k]
         if k % STARTS_A_LOOK == 0:
             check_budget()
-        if pairs.enter[k] <= high and not (low == high and are_disjoint(windows, one, two, low)):
+        if one == two:  # a body does not touch itself at the start
+            k += 1
+            continue
+        if pairs.enter[k] <= high and not (is_at_double and are_disjoint(windows, one, two, low)):
             i, j = table.body[one], table.body[two]
             found.add((int(min(i, j)), int(max(i, j))))
         k += 1
@@ -311,6 +405,7 @@ class Scan:
         after: a double at or after the start: a pair that is found to touch later certainly
             begins to touch after the start.
         end: the end of the slab.
+        exact_only: whether all that boxes do not exclude is left to exact arithmetic.
 
     Attributes:
         found: the candidates so far.
@@ -318,14 +413,17 @@ class Scan:
         is_done: whether all pairs that matter have been compared.
     """
 
-    def __init__(self, table: Table, pairs: Pairs, after: float, end: float) -> None:
+    def __init__(
+        self, table: Table, pairs: Pairs, after: float, end: float, *, exact_only: bool = False
+    ) -> None:
         self._table = table
         self._pairs = pairs
         self._after = after
         self._end = end
         self._order = sorted_by(pairs.enter)
         self._next: i64 = 0
-        self._filter = Filter(table)
+        self._exact_only = exact_only
+        self._filter = Filter(table, exact_only=exact_only, look=check_budget)
         self.found = Candidates(end)
         self.low = -INFINITY
         self.is_done = False
@@ -353,8 +451,10 @@ class Scan:
             self._next += 1
             found.pairs += 1
             one, two = pairs.one[k], pairs.two[k]
+            if move_together(table, one, two):
+                continue
             leave = min(pairs.leave[k], found.limit)
-            if are_straight(table, one, two):
+            if are_straight(table, one, two) and not self._exact_only:
                 if not are_separated(table, one, two, self.low, leave):
                     straight.collect(table, one, two, self.low, leave, self._after, found)
             else:

@@ -19,13 +19,13 @@ import time as clock
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
-from typing import Final, NamedTuple, final
+from typing import Final, NamedTuple, Protocol, final
 
 from exactpt.cached_property import cached_property
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget, deadline_in, searching
-from exactpt.kernel.numbers import QQ, fraction, of_double
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.pair.contact import Contact, contact_of
 from exactpt.pair.straight import LinearContact
 from exactpt.scene.scene import Scene
@@ -33,11 +33,10 @@ from exactpt.search.decide import Decider, Squares
 from exactpt.search.query import Selection
 from exactpt.search.reading import Rows
 from exactpt.search.sweep import (
-    Drift,
     Ignored,
     Pairs,
     Scan,
-    drift_of,
+    flow_of,
     near_at_start,
     pairs_during,
     pairs_of_bodies,
@@ -48,6 +47,10 @@ FEW: Final = 4
 """Number of bodies up to which the whole time span is one slab at first."""
 SHORTEST: Final = 2.0**-40
 """Part of the time span below which no slab is cut."""
+SHORT: Final = 256.0
+"""Number of first slabs in the time span, if a body turns, curves or deforms."""
+PIECES: Final = 64
+"""Number of pieces that a body gets at a time: a slab is no longer than these last."""
 MANY: Final = 1 << 10
 """Number of pairs of features that are compared between two looks at the budget."""
 
@@ -65,64 +68,151 @@ class Slab(NamedTuple):
     pairs: Pairs
 
 
+class PairsDuring(Protocol):
+    """Finds pairs of rows."""
+
+    def during(self, low: float, high: float) -> Pairs:
+        """Return all pairs of rows that count and may touch in [low, high]."""
+
+    def first_length(self, span: float) -> float:
+        """Return a length of the first slab, at most that of the time span."""
+
+
 @final
-class SlabsOfAll:
-    """The slabs of all pairs of bodies that count.
+class AllPairs:
+    """The pairs of rows of all pairs of bodies that count.
 
     Args:
         rows: the rows.
         selection: the pairs that count, none of them by its name; by default all.
+        apart: pairs i < j of bodies that do not count either.
+        with_themselves: whether bodies that deform count with themselves.
     """
 
-    def __init__(self, rows: Rows, selection: Selection | None = None) -> None:
+    def __init__(
+        self,
+        rows: Rows,
+        selection: Selection | None = None,
+        apart: Iterable[tuple[int, int]] = (),
+        *,
+        with_themselves: bool = True,
+    ) -> None:
+        self._with_themselves = with_themselves
         self._table = rows.table
-        self._span = rows.span
         self._count = len(rows.bodies)
-        self._ignored = _ignored(selection, self._count)
+        groups = None if selection is None else selection.groups
+        each = [sorted(groups.get(i, ())) for i in range(self._count)] if groups else []
+        self._ignored = Ignored(each, apart)
+        self._rows = rows
+        self._flow = flow_of(rows.table, rows.span.low)
+
+    def during(self, low: float, high: float) -> Pairs:
+        """See `PairsDuring`."""
+        if not self._rows.are_straight:
+            self._flow = flow_of(self._table, low)  # it changes with time
+        themselves = self._with_themselves
+        return pairs_during(
+            self._table, self._ignored, low, high, self._flow.drift, with_themselves=themselves
+        )
+
+    def first_length(self, span: float) -> float:
+        """See `PairsDuring`: the time in which neighbours meet, unless the bodies are few."""
+        stride = self._flow.stride
+        if self._count > FEW and 0.0 < stride < math.inf:
+            return min(span, 0.5 * stride)  # both of two neighbours move
+        return span
+
+
+@final
+class NamedPairs:
+    """The pairs of rows of some pairs of different bodies.
+
+    Args:
+        rows: the rows.
+        bodies: the pairs.
+    """
+
+    def __init__(self, rows: Rows, bodies: Sequence[tuple[int, int]]) -> None:
+        self._table = rows.table
+        self._bodies = bodies
+
+    def during(self, low: float, high: float) -> Pairs:
+        """See `PairsDuring`."""
+        return pairs_of_bodies(self._table, self._bodies, low, high)
+
+    def first_length(self, span: float) -> float:
+        """See `PairsDuring`: all at once."""
+        return span
+
+
+def pairs_that_count(
+    rows: Rows,
+    selection: Selection,
+    apart: Iterable[tuple[int, int]] = (),
+    *,
+    with_themselves: bool = True,
+) -> PairsDuring:
+    """Return what finds all pairs of rows that count.
+
+    Args:
+        rows: the rows.
+        selection: the pairs of bodies that count.
+        apart: pairs i < j of bodies that do not count either.
+        with_themselves: whether bodies that deform count with themselves, unless pairs are named.
+    """
+    if selection.named is None:
+        return AllPairs(rows, selection, apart, with_themselves=with_themselves)
+    others = set(apart)
+    return NamedPairs(rows, [pair for pair in selection.named if pair not in others])
+
+
+@final
+class Slabs:
+    """Windows of time that cover the span, in order, with the pairs of rows that may touch.
+
+    Args:
+        rows: the rows; those that are waiting get their pieces.
+        pairs: finds pairs of rows.
+        longest: the length of a slab is at most this.
+    """
+
+    def __init__(self, rows: Rows, pairs: PairsDuring, longest: float = math.inf) -> None:
+        self._rows = rows
+        self._pairs = pairs
+        self._longest = longest
 
     def __iter__(self) -> Iterator[Slab]:
-        low, end = self._span.low, self._span.high
-        drift = drift_of(self._table, low)
+        low, end = self._rows.span.low, self._rows.span.high
         span = end - low
-        length = span
-        if self._count > FEW and 0.0 < drift.stride < math.inf:
-            length = min(span, 0.5 * drift.stride)  # both of two neighbours move
-        many = 4 * self._count + 64
+        length = self._pairs.first_length(span)
+        if length == span and not self._rows.are_straight:
+            length = span / SHORT  # what comes after a contact costs nothing
+        many = 4 * len(self._rows.bodies) + 64
         is_last = False
         while not is_last:
+            length = min(length, self._longest)
             high = end if length >= span else self._later(low, length)
-            pairs = self._pairs(low, high, drift)
+            pairs = self._pairs.during(low, high)
             while pairs.count() > many and length > span * SHORTEST:
                 sooner = self._later(low, length / 4.0)
-                fewer = self._pairs(low, sooner, drift)
+                fewer = self._pairs.during(low, sooner)
                 if fewer.count() * 2 > pairs.count():
                     break
                 length /= 4.0
                 high, pairs = sooner, fewer
+            while pairs.waiting:
+                waiting = sorted(pairs.waiting)
+                made = min(self._rows.make_pieces(row, high, PIECES) for row in waiting)
+                if low < made < high:
+                    high, length = made, made - low
+                pairs = self._pairs.during(low, high)
             is_last = high >= end
             yield Slab(low, high, pairs)
             low, length = high, 2.0 * length
 
     def _later(self, low: float, length: float) -> float:
         """Return the end of a slab, which is later than its start."""
-        return min(max(low + length, math.nextafter(low, math.inf)), self._span.high)
-
-    def _pairs(self, low: float, high: float, drift: Drift) -> Pairs:
-        return pairs_during(self._table, self._ignored, low, high, drift)
-
-
-def _ignored(selection: Selection | None, count: int) -> Ignored:
-    """Return the groups of a selection, for compiled code."""
-    groups = None if selection is None else selection.groups
-    if not groups:
-        return Ignored()
-    return Ignored([sorted(groups.get(i, ())) for i in range(count)])
-
-
-def slab_of_bodies(rows: Rows, bodies: Sequence[tuple[int, int]]) -> Slab:
-    """Return the whole time span as one slab, with the rows of given pairs of different bodies."""
-    low, high = rows.span.low, rows.span.high
-    return Slab(low, high, pairs_of_bodies(rows.table, bodies, low, high))
+        return min(max(low + length, math.nextafter(low, math.inf)), self._rows.span.high)
 
 
 @final
@@ -133,6 +223,7 @@ class Sweep:
         rows: the rows.
         slabs: windows of time that cover the span, in order, with the pairs of rows that count.
         squares: when two bodies touch; None if where their distance is the sum of their radii.
+        exact_only: whether exact arithmetic decides all that boxes do not exclude.
         deadline: the time on the clock after which the search ends; None for no limit.
 
     Attributes:
@@ -144,8 +235,11 @@ class Sweep:
         rows: Rows,
         slabs: Iterable[Slab],
         squares: Squares | None = None,
+        *,
+        exact_only: bool = False,
         deadline: float | None = None,
     ) -> None:
+        self._exact_only = exact_only
         self._rows = rows
         self._slabs = iter(slabs)
         self._trace = trace_of(rows)
@@ -168,7 +262,8 @@ class Sweep:
     def near_at_start(self) -> list[tuple[int, int]]:
         """Return the pairs i < j of bodies that may touch at the start, sorted."""
         span = self._rows.span
-        return near_at_start(self._rows.table, self._first.pairs, span.low, span.after)
+        table, pairs = self._rows.table, self._first.pairs
+        return near_at_start(table, pairs, span.low, span.after, exact_only=self._exact_only)
 
     def first_after_start(self) -> LinearContact | None:
         """Return the first contact of bodies that do not touch at the start.
@@ -191,7 +286,9 @@ class Sweep:
         if self._trace is not None:
             self._trace.slab(slab)
         rows = self._rows
-        scan = self._in_progress = Scan(rows.table, slab.pairs, rows.span.after, slab.high)
+        scan = self._in_progress = Scan(
+            rows.table, slab.pairs, rows.span.after, slab.high, exact_only=self._exact_only
+        )
         while not scan.is_done:
             check_budget()
             if self._deadline is not None and clock.monotonic() > self._deadline:
@@ -217,17 +314,20 @@ class Sweep:
         span, before = self._rows.span, math.nextafter(low, -math.inf)
         if before >= span.high:
             return span.end
-        return max(span.start, of_double(before)) if math.isfinite(before) else span.start
+        if not math.isfinite(before):
+            return span.start
+        return max(span.start, self._rows.units.exact_time(before))
 
 
 @final
 class SweepSearch:
-    """A search for the first contact of bodies that all move straight.
+    """A search for the first contact of the bodies of a scene.
 
     Args:
         scene: the bodies, their motions and the time span.
         rows: the rows of the bodies.
-        slabs: windows of time that cover the span, in order, with the pairs of rows that count.
+        pairs: finds the pairs of rows that count.
+        exact_only: whether exact arithmetic decides all that boxes do not exclude.
         max_seconds: time limit, in seconds; None for no limit.
 
     Attributes:
@@ -235,30 +335,25 @@ class SweepSearch:
     """
 
     name = None
-    lacks_boxes = False
 
     def __init__(
-        self, scene: Scene, rows: Rows, slabs: Iterable[Slab], max_seconds: float | None = None
+        self,
+        scene: Scene,
+        rows: Rows,
+        pairs: PairsDuring,
+        *,
+        exact_only: bool = False,
+        max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
         self._deadline = deadline_in(max_seconds)
-        self._sweep = Sweep(rows, slabs, deadline=self._deadline)
+        slabs = Slabs(rows, pairs)
+        self._sweep = Sweep(rows, slabs, exact_only=exact_only, deadline=self._deadline)
 
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the search so far, see docs/format.md."""
-        sweep = self._sweep
-        return {
-            "bodies": len(self._scene.bodies),
-            "vertices": self._scene.vertex_count,
-            "events": 0,
-            "slabs": sweep.slabs,
-            "pairs": sweep.pairs,
-            "certificates": sweep.compared,
-            "skipped": 0,
-            "exact": sweep.exact,
-            "filtered": sweep.compared - sweep.exact,
-        }
+        return stats_of(self._scene, self._sweep)
 
     def contact_free_until(self) -> Fraction | None:
         """See `exactpt.search.first.Search`."""
@@ -273,22 +368,33 @@ class SweepSearch:
         """
         with searching(self._deadline, self.contact_free_until):
             near = self._sweep.near_at_start()
-            initial = self._contact_at_start(near) if near else None
+            initial = contact_at_start(self._scene, near) if near else None
             if initial is not None:
                 return initial
             found = self._sweep.first_after_start()
             return None if found is None else contact_of(self._scene, found.number, found.touches)
 
-    def _contact_at_start(self, near: Sequence[tuple[int, int]]) -> Contact | None:
-        """Return the contact at the start, of the pairs of bodies that may touch there."""
-        from exactpt.pair.start import initial_touches  # it imports numpy
 
-        touches, pairs = initial_touches(self._scene, near)
-        if not pairs:
-            return None
-        return contact_of(self._scene, AlgebraicNumber(self._scene.exact_start), touches, pairs)
+def stats_of(scene: Scene, sweep: Sweep) -> dict[str, object]:
+    """Return the counts of a search, see docs/format.md."""
+    return {
+        "bodies": len(scene.bodies),
+        "vertices": scene.vertex_count,
+        "events": 0,
+        "slabs": sweep.slabs,
+        "pairs": sweep.pairs,
+        "certificates": sweep.compared,
+        "skipped": 0,
+        "exact": sweep.exact,
+        "filtered": sweep.compared - sweep.exact,
+    }
 
 
-def first_of_two(rows: Rows) -> LinearContact | None:
-    """Return the first contact after the start of two bodies that do not touch at the start."""
-    return Sweep(rows, [slab_of_bodies(rows, [(0, 1)])]).first_after_start()
+def contact_at_start(scene: Scene, near: Sequence[tuple[int, int]]) -> Contact | None:
+    """Return the contact at the start, of the pairs of bodies that may touch there."""
+    from exactpt.pair.start import initial_touches  # it imports numpy
+
+    touches, pairs = initial_touches(scene, near)
+    if not pairs:
+        return None
+    return contact_of(scene, AlgebraicNumber(scene.exact_start), touches, pairs)

@@ -6,6 +6,7 @@ filter says, what exact arithmetic decides. To follow an answer, or to see why i
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Final, final
 
 from exactpt.filters.candidates import Candidate
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, shorten
+from exactpt.kernel.numbers import QQ, nearest_float, shorten
 from exactpt.motion.track import Incidence
 from exactpt.pair.straight import Begin
 
@@ -36,7 +37,8 @@ class Trace:
 
     def __init__(self, rows: Rows) -> None:
         self._names = [shorten(body.name) for body in rows.bodies]
-        self._body_of_row = list(rows.table.body)
+        self._table = rows.table
+        self._units = rows.units
         self._times: dict[tuple[int, int], tuple[float, float]] = {}
 
     def slab(self, slab: Slab) -> None:
@@ -45,11 +47,12 @@ class Trace:
         self._times = {
             rows: (pairs.enter[k], pairs.leave[k]) for k, rows in enumerate(pairs.rows())
         }
-        self._write(f"slab [{slab.low!r}, {slab.high!r}]: {pairs.count()} pairs of rows are near")
+        low, high = self._time(slab.low), self._time(slab.high)
+        self._write(f"slab [{low}, {high}]: {pairs.count()} pairs of rows are near")
 
     def filtered(self, candidates: Sequence[Candidate], limit: float, end: float) -> None:
         """Write what the filters have left of a slab with an end."""
-        known = f"; a contact is certain by {limit!r}" if limit < end else ""
+        known = f"; a contact is certain by {self._time(limit)}" if limit < end else ""
         self._write(f"  filters leave {len(candidates)} candidates{known}")
 
     def candidate(self, candidate: Candidate, begin: Begin | None) -> None:
@@ -66,8 +69,8 @@ class Trace:
         enter, leave = self._times.get((one, other)) or self._times[other, one]
         self._write(
             f"  vertex {candidate.vertex} of {self._name(one)}, {feature} of {self._name(other)}: "
-            f"boxes meet in [{enter!r}, {leave!r}], "
-            f"the filter says [{candidate.low!r}, {candidate.high!r}], "
+            f"boxes meet in [{self._time(enter)}, {self._time(leave)}], "
+            f"the filter says [{self._time(candidate.low)}, {self._time(candidate.high)}], "
             f"exact arithmetic: {_said(None if begin is None else begin.time)}"
         )
 
@@ -77,8 +80,15 @@ class Trace:
         for incidence in incidences:
             self._write(f"    {incidence}")
 
+    def _time(self, time: float) -> str:
+        """Return a time of the rows as one of the scene."""
+        units = self._units
+        if units.is_identity or not math.isfinite(time):
+            return repr(time)
+        return repr(nearest_float(units.exact_time(time)))
+
     def _name(self, row: int) -> str:
-        return self._names[self._body_of_row[row]]
+        return self._names[self._table.body[row]]
 
     def _write(self, line: str) -> None:
         sys.stderr.write(f"exactpt: {line}\n")

@@ -6,8 +6,6 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, final, overload
 
-import numpy as np
-
 from exactpt.brief import record_in_brief
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -16,15 +14,12 @@ from exactpt.kernel.square_root import exact_square_root, root_above
 from exactpt.motion.body import Body
 from exactpt.pair.distance import squared_distance
 from exactpt.pair.pieces_of_two import two_bodies
-from exactpt.pair.start import near_at_start, within_at_start
-from exactpt.pair.straight import Earliest, span_of
+from exactpt.pair.start import within_at_start
 from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene, scene_of
-from exactpt.search.approach_search import ApproachSearch
-from exactpt.search.candidate_pairs import candidate_pairs
 from exactpt.search.query import Selection
-from exactpt.search.reading import straight_rows
-from exactpt.search.sweep_search import SlabsOfAll, Sweep
+from exactpt.search.reading import rows_of_scene
+from exactpt.search.sweep_search import Slabs, Sweep, pairs_that_count
 
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
 """The time of an approach, and the indices i < j of the bodies that are within the distance."""
@@ -130,7 +125,7 @@ def first_within(
     square_between_cores(squared, largest_radius)  # refuses a square without a rational root
     found: Near | None = None
     if len(scene.bodies) > 1:
-        found = _first(scene, squared) if selection.is_all else _selected(scene, selection, squared)
+        found = _first(scene, squared, selection)
     if found is None:
         return None
     names = {(scene.bodies[i].name, scene.bodies[j].name) for i, j in found[1]}
@@ -173,18 +168,6 @@ def square_between_cores(squared: QQ, radii: QQ) -> QQ:
     return (distance + radii) ** 2
 
 
-def _selected(scene: Scene, selection: Selection, squared: QQ) -> Near | None:
-    """Return the first approach of the pairs that count: each is searched up to the best time."""
-    best: Earliest[tuple[int, int]] = Earliest()
-    for i, j in map(sorted, selection.of(candidate_pairs(scene, root_above(squared)))):
-        first, second = scene.bodies[i], scene.bodies[j]
-        until = best.until(scene.exact_end)
-        time = time_within_of_two(first, second, scene.exact_start, until, squared)
-        if time is not None:
-            best.add(time, [(i, j)])
-    return None if best.number is None else (best.number, best.found)
-
-
 def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> AlgebraicNumber | None:
     """Return the first time in [start, end] at which two bodies are within a distance.
 
@@ -199,33 +182,25 @@ def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> Alg
     if start == end:
         is_within = squared_distance(a, b, start) <= squared_of_cores
         return AlgebraicNumber(start) if is_within else None
-    found = _first(scene_of((a, b), start, end), squared)
+    scene = scene_of((a, b), start, end)
+    found = _first(scene, squared, Selection(scene))
     return None if found is None else found[0]
 
 
-def _first(scene: Scene, squared: QQ) -> Near | None:
-    """Return the first approach of any two bodies of a scene that has at least two."""
-    most = root_above(squared)
+def _first(scene: Scene, squared: QQ, selection: Selection) -> Near | None:
+    """Return the first approach of any two bodies of a scene that count."""
     radii = [body.exact_radius for body in scene.bodies]
 
     def limit(i: int, j: int) -> QQ:
         return square_between_cores(squared, radii[i] + radii[j])
 
-    rows = straight_rows(scene.bodies, span_of(scene.exact_start, scene.exact_end), most / 2)
-    sweep = None if rows is None else Sweep(rows, SlabsOfAll(rows), limit)
-    reach = [most / 2 + r for r in radii]
-    near: Iterable[tuple[int, int]]
-    if sweep is None:
-        near = near_at_start(scene, reach, np.not_equal)
-    else:
-        near = sweep.near_at_start()
-    at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
+    rows = rows_of_scene(scene, root_above(squared) / 2)
+    pairs = pairs_that_count(rows, selection, with_themselves=False)
+    sweep = Sweep(rows, Slabs(rows, pairs), limit)
+    at_start = [ij for ij, _ in within_at_start(scene, limit, sweep.near_at_start())]
     if at_start:
         return AlgebraicNumber(scene.exact_start), at_start
-    if sweep is None:
-        found = ApproachSearch(scene, limit, reach).run()
-    else:
-        found = sweep.first_after_start()
+    found = sweep.first_after_start()
     if found is None:
         return None
     return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]

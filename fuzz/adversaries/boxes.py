@@ -24,7 +24,7 @@ from librt.vecs import vec
 
 from exactpt.filters import boxes
 from exactpt.filters.rounding import U
-from exactpt.filters.rows import AFFINE, OWN, TURNING, Table
+from exactpt.filters.rows import AFFINE, GENERAL, OWN, TURNING, Table
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from fuzz.adversaries.pieces import KINDS, STYLES, Piece, made
 
@@ -79,33 +79,53 @@ def _attack_window(rng: Random, piece: Piece, style: str, found: Found) -> None:
     low = rng.choice((0.0, rng.uniform(-9, 9), float(rng.randint(-9, 9))))
     if style == "random" and rng.random() < 0.2:
         low = rng.uniform(-1, 1) * 2.0 ** rng.randint(10, 30)
+    if rng.random() < 0.5:
+        low += piece.origin
     high = low + rng.choice((0.0, 1.0, rng.random())) * 2.0 ** -rng.randint(0, 45)
-    drifts = _drift(rng, piece, 0), _drift(rng, piece, 1)
+    drift_x, drift_y = _drift(rng, piece, 0), _drift(rng, piece, 1)
+    drift = boxes.Drift(drift_x[0], drift_y[0], drift_x[1], drift_y[1])
     table = Table()
     k = piece.add_to(table, 0, low, high)
     table.radius[k] = radius = rng.choice((0.0, 0.0, 1.0 / 3.0))
-    left, right, bottom, top = boxes.of_piece(table, k, low, high, *drifts)
+    left, right, bottom, top = boxes.of_piece(table, k, low, high, drift)
     first, last = rational(low), rational(high)
     times = (first, last, first + (last - first) * rng.randint(1, 9) / 10)
     latest = max(abs(low), abs(high))
+    since = max(abs(low - piece.origin), abs(high - piece.origin))
     for t in times:
         for v, (x, y) in enumerate(piece.at(t)):
-            size_x = _size(piece, v, 0, latest) + 2.0 * abs(drifts[0]) * latest
-            size_y = _size(piece, v, 1, latest) + 2.0 * abs(drifts[1]) * latest
-            _check(x - rational(drifts[0]) * t, left, right, radius, size_x, found)
-            _check(y - rational(drifts[1]) * t, bottom, top, radius, size_y, found)
+            size_x = _size(piece, v, 0, since) + 2.0 * _size_of_drift(drift_x, latest)
+            size_y = _size(piece, v, 1, since) + 2.0 * _size_of_drift(drift_y, latest)
+            _check(x - _along(drift_x, t), left, right, radius, size_x, found)
+            _check(y - _along(drift_y, t), bottom, top, radius, size_y, found)
 
 
-def _drift(rng: Random, piece: Piece, axis: int) -> float:
-    """Return a common velocity: none, that of the piece, or a much larger one."""
-    speed = (piece.near_own if piece.kind == OWN else piece.near_frame)[4 * axis + 1]
-    return rng.choice((0.0, speed, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**40))
+def _drift(rng: Random, piece: Piece, axis: int) -> tuple[float, float]:
+    """Return a common velocity and bend: none, those of the piece, or much larger ones."""
+    speed, bend = 0.0, 0.0
+    if piece.kind != GENERAL:
+        numbers = piece.near_own if piece.kind == OWN else piece.near_frame
+        speed, bend = numbers[4 * axis + 1 : 4 * axis + 3]
+    speed = rng.choice((0.0, speed, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**40))
+    return speed, rng.choice((0.0, bend, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**30))
+
+
+def _along(drift: tuple[float, float], t: QQ) -> QQ:
+    """Return where a drift is at a time."""
+    speed, bend = map(rational, drift)
+    return (speed + bend * t) * t
+
+
+def _size_of_drift(drift: tuple[float, float], latest: float) -> float:
+    return (abs(drift[0]) + abs(drift[1]) * latest) * latest
 
 
 def _size(piece: Piece, v: int, axis: int, latest: float) -> float:
     """Return the sum of the sizes of all terms of a coordinate, without the drift."""
     if piece.kind == OWN:
         return _reach(piece.own[v][axis], latest)
+    if piece.kind == GENERAL:  # w is about 1 at most times at which there is a model
+        return _reach(piece.general[v][axis], latest) + abs(piece.near_frame[4 * axis])
     size = _reach(piece.frame[axis], latest)
     xs, ys = (max(abs(place[i]) for place in piece.near_places) for i in (0, 1))
     if piece.kind == AFFINE:

@@ -17,13 +17,14 @@ from typing import Final, TypeAlias
 
 from exactpt.filters.candidates import NO_EDGE, NO_VERTEX, Candidates
 from exactpt.filters.features import Filter
-from exactpt.filters.rows import AFFINE, CURVED, OWN, STRAIGHT, TURNING, Table
+from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Table
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, of_double
+from exactpt.kernel.numbers import QQ, nearest_float, of_double
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.track import Incidence
 from exactpt.pair.features import FeaturePair
 from fuzz.adversaries.moving import Moving, Place, add_row, tracks
+from fuzz.adversaries.pieces import TURNS
 from fuzz.adversaries.report import Report, run
 
 __all__ = ["KINDS", "check", "pairs_of"]
@@ -161,6 +162,10 @@ def polynomial(number: Callable[[], QQ], degree: int, length: QQ) -> Polynomial:
 
 def moving(rng: Random, kind: int, number: Callable[[], QQ], length: QQ, radius: QQ) -> Moving:
     """Return a piece of a kind."""
+    if kind == GENERAL:
+        other = rng.choice((CURVED, TURNING, AFFINE, OWN))
+        piece = moving(rng, other, number, length, radius)
+        return replace(piece, is_general=True, blur=QQ(0))
     size = abs(number()) / 5 or QQ(1)
     places, edges = shape(rng, size)
     start, end = span(rng, length)
@@ -182,7 +187,8 @@ def moving(rng: Random, kind: int, number: Callable[[], QQ], length: QQ, radius:
         )
         places = ()
     blur = size * rng.choice([QQ(0), QQ(0), QQ(1, 2 ** rng.randint(10, 50))])
-    return Moving(kind, start, end, places, path, frame, own, edges, radius, blur)
+    turn = rng.choice(TURNS) if kind == TURNING else TURNS[0]
+    return Moving(kind, start, end, places, path, frame, own, edges, radius, blur, turn)
 
 
 def tied(rng: Random, one: Moving, two: Moving, length: QQ) -> Moving:
@@ -210,6 +216,14 @@ def tied(rng: Random, one: Moving, two: Moving, length: QQ) -> Moving:
     return replace(two, path=path)
 
 
+def with_origin(rng: Random, piece: Moving) -> Moving:
+    """Return a piece, or the same with a row of polynomials in the time since its middle."""
+    if piece.kind == STRAIGHT or rng.random() < 0.4:
+        return piece
+    middle = of_double(nearest_float((piece.start + piece.end) / 2))
+    return replace(piece, origin=middle)
+
+
 def shifted(piece: Moving, later: QQ) -> Moving:
     """Return a piece that moves as another one did before."""
     before = Polynomial([-later, 1])
@@ -230,7 +244,8 @@ KINDS: Final = {
     "turning": (STRAIGHT, TURNING),
     "affine": (STRAIGHT, AFFINE),
     "own": (STRAIGHT, OWN),
-    "mixed": (STRAIGHT, CURVED, TURNING, AFFINE, OWN),
+    "general": (STRAIGHT, GENERAL),
+    "mixed": (STRAIGHT, CURVED, TURNING, AFFINE, OWN, GENERAL),
 }
 
 
@@ -248,7 +263,7 @@ def pairs_of(kinds: tuple[int, ...], rng: Random) -> Iterator[tuple[Moving, Movi
         if rng.random() < 0.2:
             later = length * rng.choice([QQ(-3), QQ(1, 3), QQ(1000), QQ(2**20)])
             one, two = shifted(one, later), shifted(two, later)
-        yield one, two
+        yield with_origin(rng, one), with_origin(rng, two)
 
 
 def checked(kinds: tuple[int, ...]) -> Callable[[int, int], Report]:

@@ -87,6 +87,22 @@ def polynomials(rows: int, seed: int) -> Report:
     return report
 
 
+def long_polynomials(rows: int, seed: int) -> Report:
+    """Check models of polynomials of any degree whose coefficients are off by U."""
+    report, rng = Report(), Random(seed)
+    while report.rows + report.counts.get("no model", 0) < rows:
+        c = [coefficient(rng) for _ in range(rng.randint(1, 9))]
+        middle, half = window(rng)
+        s = instant(rng)
+        t = of_double(middle) + of_double(half) * s
+        terms = [of_double(x) * t**k for k, x in enumerate(c)]
+        f = models.of_long_polynomial(vec[float](c), 0, len(c), middle, half)
+        off = value_of(f, s) - sum(terms)
+        exact = sum(terms) - sign(off) * UNIT * sum(map(abs, terms))
+        measure(report, f, s, exact, (c, middle, half))
+    return report
+
+
 def drawn(rng: Random, scale: float = 1.0) -> Model:
     """Return a model: quadratic, and a remainder of any size."""
     c0, c1, c2 = (coefficient(rng) for _ in range(3))
@@ -162,8 +178,56 @@ def turns(rows: int, seed: int) -> Report:
     return report
 
 
+def constant_turns(rows: int, seed: int) -> Report:
+    """Check the cosine and the sine of an angle and a constant one, whose numbers are off by U."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        f, g, s = drawn(rng), drawn(rng), instant(rng)
+        c, d = coefficient(rng), coefficient(rng)
+        first, second = models.turned(f, g, c, d)
+        factors = [(x * (1 + u), y * (1 + v)) for x, y, u, v in off_by_unit(c, d)]
+        pairs = [(x, y) for x in ends(f, s) for y in ends(g, s)]
+        cosines = [x * c - y * d for x, y in pairs for c, d in factors]
+        sines = [y * c + x * d for x, y in pairs for c, d in factors]
+        measure(report, first, s, farthest(cosines, first, s), (f, g, c, d))
+        measure(report, second, s, farthest(sines, second, s), (f, g, c, d))
+    return report
+
+
+def scalings(rows: int, seed: int) -> Report:
+    """Check models times a number that is off by U."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        f, s, c = drawn(rng), instant(rng), coefficient(rng)
+        scaled = models.scaled(f, c)
+        exact = [x * of_double(c) * (1 + u) for x in ends(f, s) for u in (-UNIT, UNIT)]
+        measure(report, scaled, s, farthest(exact, scaled, s), (f, c))
+    return report
+
+
+def shifts(rows: int, seed: int) -> Report:
+    """Check models of functions and a number."""
+    report, rng = Report(), Random(seed)
+    while report.rows < rows:
+        f, s, c = drawn(rng), instant(rng), coefficient(rng)
+        moved = models.moved(f, c)
+        exact = [x + of_double(c) for x in ends(f, s)]
+        measure(report, moved, s, farthest(exact, moved, s), (f, c))
+    return report
+
+
+def off_by_unit(c: float, d: float) -> list[tuple[QQ, QQ, QQ, QQ]]:
+    """Return two numbers, each with -U and U."""
+    signs = (-UNIT, UNIT)
+    return [(of_double(c), of_double(d), u, v) for u in signs for v in signs]
+
+
 PARTS: Final[dict[str, Part]] = {
     "polynomials": polynomials,
+    "long polynomials": long_polynomials,
+    "constant turns": constant_turns,
+    "scalings": scalings,
+    "shifts": shifts,
     "sums": sums,
     "products": products,
     "inverses": inverses,

@@ -8,14 +8,28 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from exactpt.filters.rounding import TINY
-from exactpt.filters.rows import AFFINE, EXACT, FRAME, OWN, TURNING, Errors, Piece, Table
+from exactpt.filters.rows import (
+    AFFINE,
+    EXACT,
+    FRAME,
+    GENERAL,
+    OWN,
+    PATH_X,
+    PATH_Y,
+    TURNING,
+    Errors,
+    Piece,
+    Table,
+)
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, of_double
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.track import Track, track
+from fuzz.adversaries.pieces import TURNS
 
 __all__ = ["Moving", "add_row", "positions", "tracks"]
 
 Place: TypeAlias = tuple[QQ, QQ]
+ZERO = QQ(0)
 DEGREE = 4  # coefficients of a polynomial in the table
 
 
@@ -33,6 +47,9 @@ class Moving:
         edges: the numbers of the ends of edges.
         radius: its radius.
         blur: about how far its row is off, in places and in the path.
+        turn: the cosine and the sine of a constant turn, after which it turns.
+        origin: a double; the polynomials of its row are in the time since it.
+        is_general: whether its row has quotients of polynomials.
     """
 
     kind: int
@@ -45,6 +62,9 @@ class Moving:
     edges: tuple[tuple[int, int], ...]
     radius: QQ
     blur: QQ
+    turn: tuple[QQ, QQ] = TURNS[0]
+    origin: QQ = ZERO
+    is_general: bool = False
 
     @property
     def size(self) -> int:
@@ -65,7 +85,8 @@ def homogeneous(piece: Moving) -> list[tuple[Polynomial, Polynomial, Polynomial]
     if piece.kind == TURNING:
         (h,) = piece.frame
         w = one + h * h
-        c, s = one - h * h, 2 * h
+        cosine, sine = piece.turn
+        c, s = (one - h * h) * cosine - 2 * h * sine, 2 * h * cosine + (one - h * h) * sine
         return [
             (path_x * w + c * dx - s * dy, path_y * w + s * dx + c * dy, w)
             for dx, dy in piece.places
@@ -97,15 +118,31 @@ def add_row(table: Table, body: int, piece: Moving) -> None:
     edge = table.add_edges(list(piece.edges))
     frame = [0.0] * FRAME
     xs, ys, errors = [0.0], [0.0], EXACT
-    if piece.kind == OWN:
-        first = table.add_own([c for pair in piece.own for f in pair for c in coefficients(f)])
+    kind, terms = piece.kind, 0
+
+    def local(f: Polynomial) -> Polynomial:
+        return f(Polynomial([piece.origin, 1])) if piece.origin else f
+
+    if piece.is_general:
+        kind = GENERAL
+        anchor = [nearest_float(c) for c in positions(piece, piece.origin)[0]]
+        frame[int(PATH_X)], frame[int(PATH_Y)] = anchor
+        ax, ay = map(of_double, anchor)
+        around = [(x - ax * w, y - ay * w, w) for x, y, w in homogeneous(piece)]
+        numbers, terms = quotients([tuple(map(local, vertex)) for vertex in around])
+        first = table.add_general(numbers)
+    elif piece.kind == OWN:
+        own = (f for pair in piece.own for f in pair)
+        first = table.add_own([c for f in own for c in coefficients(local(f))])
     else:
         xs = [nearest_float(x + sign * piece.blur) for (x, _), sign in piece.signed()]
         ys = [nearest_float(y - sign * piece.blur) for (_, y), sign in piece.signed()]
         first = table.add_places(xs, ys)
-        path = [blurred(f, piece.blur) for f in piece.path]
+        path = [blurred(local(f), piece.blur) for f in piece.path]
         frame = [c for near, _, _ in path for c in near]
-        frame += [c for f in piece.frame for c in coefficients(f)]
+        frame += [c for f in piece.frame for c in coefficients(local(f))]
+        if piece.turn != TURNS[0]:
+            frame += map(nearest_float, piece.turn)
         frame += [0.0] * (FRAME - len(frame))
         place = largest_error(piece.places, xs, ys)
         errors = Errors(place, max(path[0][1], path[1][1]), max(path[0][2], path[1][2]))
@@ -115,7 +152,7 @@ def add_row(table: Table, body: int, piece: Moving) -> None:
         box = -reach, reach, -reach, reach
     row = Piece(
         body=body,
-        kind=piece.kind,
+        kind=int(kind),
         start=enclosing_floats(piece.start)[0],
         end=enclosing_floats(piece.end)[1],
         place=first,
@@ -126,7 +163,9 @@ def add_row(table: Table, body: int, piece: Moving) -> None:
         box=box,
         errors=errors,
         radius=enclosing_floats(piece.radius)[1],
-        deforms=piece.kind >= AFFINE,
+        deforms=kind >= AFFINE,
+        origin=nearest_float(piece.origin),
+        terms=terms,
     )
     table.add_piece(row)
 
@@ -135,6 +174,17 @@ def coefficients(f: Polynomial) -> list[float]:
     """Return the doubles nearest to the coefficients."""
     near = [nearest_float(c) for c in f.exact_coefficients]
     return near + [0.0] * (DEGREE - len(near))
+
+
+def quotients(vertices: Sequence[tuple[Polynomial, ...]]) -> tuple[list[float], int]:
+    """Return the numbers of vertices x, y, w, of which w begins with 1, and terms of each."""
+    exact = []
+    for vertex in vertices:
+        scale = 1 / vertex[2].exact_coefficients[0]
+        exact += [[c * scale for c in f.exact_coefficients] for f in vertex]
+    terms = max(1, *map(len, exact))
+    numbers = [nearest_float(c) for f in exact for c in [*f, *[QQ(0)] * (terms - len(f))]]
+    return numbers, terms
 
 
 def blurred(f: Polynomial, blur: QQ) -> tuple[list[float], float, float]:

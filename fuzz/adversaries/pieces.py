@@ -8,17 +8,17 @@ and sevenths that were rounded.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from random import Random
 from typing import Final, TypeAlias
 
 from exactpt.filters.rounding import U
-from exactpt.filters.rows import AFFINE, CURVED, OWN, STRAIGHT, TURNING, Errors, Table
+from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Errors, Table
 from exactpt.filters.rows import Piece as Row
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 
-__all__ = ["KINDS", "STYLES", "Piece", "Point", "Polynomial", "made", "power"]
+__all__ = ["KINDS", "STYLES", "TURNS", "Piece", "Point", "Polynomial", "made", "power"]
 
 Polynomial: TypeAlias = tuple[QQ, ...]
 Point: TypeAlias = tuple[QQ, QQ]
@@ -29,7 +29,13 @@ KINDS: Final = {
     "turning": int(TURNING),
     "affine": int(AFFINE),
     "own": int(OWN),
+    "general": int(GENERAL),
 }
+TURNS: Final = tuple(
+    (QQ(a, c), QQ(b, c))
+    for a, b, c in ((1, 0, 1), (3, -4, 5), (-5, 12, 13), (0, 1, 1), (-1, 0, 1), (-9999, 200, 10001))
+)
+"""Cosines and sines of constant turns."""
 STYLES: Final = ("grid", "random", "far", "tiny", "subnormal", "thirds", "stated")
 """Small integers; doubles; places far from 0; below 2^-200; the least doubles; rounded rationals;
 and errors that are much larger than rounding."""
@@ -48,6 +54,10 @@ class Piece:
         errors: bounds on what they are off.
         edges: pairs of vertices.
         radius: a bound of the radius, and the radius.
+        turn: the true cosine and sine of a constant turn, after which the piece turns.
+        general: of each vertex at (x / w, y / w) from an anchor the true polynomials, of one
+            length; the anchor is in the frame.
+        origin: the time since which all polynomials are.
     """
 
     kind: int
@@ -60,9 +70,22 @@ class Piece:
     errors: Errors
     edges: list[tuple[int, int]]
     radius: float = 0.0
+    turn: tuple[QQ, QQ] = TURNS[0]
+    general: list[tuple[Polynomial, Polynomial, Polynomial]] = field(default_factory=list)
+    origin: float = 0.0
+
+    @property
+    def size(self) -> int:
+        """The number of vertices."""
+        return len(self.places) or len(self.own) or len(self.general)
 
     def at(self, t: QQ) -> list[Point]:
         """Return where the vertices are at a time."""
+        t -= rational(self.origin)
+        if self.kind == GENERAL:
+            ax, ay = rational(self.near_frame[0]), rational(self.near_frame[4])
+            of_w = [(x, y, value(w, t)) for x, y, w in self.general]
+            return [(ax + value(x, t) / w, ay + value(y, t) / w) for x, y, w in of_w]
         if self.kind == OWN:
             return [(value(x, t), value(y, t)) for x, y in self.own]
         px, py = value(self.frame[0], t), value(self.frame[1], t)
@@ -72,7 +95,9 @@ class Piece:
     def _matrix(self, t: QQ) -> tuple[QQ, QQ, QQ, QQ]:
         if self.kind == TURNING:
             h = value(self.frame[2], t)
-            cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
+            c, s = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
+            turn_c, turn_s = self.turn
+            cosine, sine = c * turn_c - s * turn_s, s * turn_c + c * turn_s
             return cosine, -sine, sine, cosine
         if self.kind == AFFINE:
             a, b, c, d = (value(f, t) for f in self.frame[2:])
@@ -82,13 +107,13 @@ class Piece:
     def add_to(self, table: Table, body: int, start: float, end: float) -> int:
         """Add the row to a table; return its number."""
         xs, ys = [x for x, _ in self.near_places], [y for _, y in self.near_places]
-        place = table.add_own(self.near_own) if self.kind == OWN else table.add_places(xs, ys)
+        place = self._add_vertices(table, xs, ys)
         edge = table.add_edges(self.edges)
         box = (0.0, 0.0, 0.0, 0.0)
         if self.kind == TURNING:
             reach = max(map(math.hypot, xs, ys)) * (1.0 + 1e-10)
             box = (-reach, reach, -reach, reach)
-        elif self.kind != OWN:
+        elif self.kind not in {OWN, GENERAL}:
             box = (min(xs), max(xs), min(ys), max(ys))
         row = Row(
             body=body,
@@ -96,17 +121,35 @@ class Piece:
             start=start,
             end=end,
             place=place,
-            size=len(self.places) or len(self.own),
+            size=self.size,
             edge=edge,
             edges=len(self.edges),
-            frame=self.near_frame + [0.0] * (24 - len(self.near_frame)),
+            frame=self._frame(),
             box=box,
             errors=self.errors,
             radius=self.radius,
             deforms=self.kind >= AFFINE,
+            origin=self.origin,
+            terms=len(self.general[0][0]) if self.general else 0,
         )
         table.add_piece(row)
         return table.count() - 1
+
+    def _add_vertices(self, table: Table, xs: list[float], ys: list[float]) -> int:
+        """Add the vertices to a table; return the number of the first."""
+        if self.kind == OWN:
+            return table.add_own(self.near_own)
+        if self.kind == GENERAL:
+            polynomials = (f for vertex in self.general for f in vertex)
+            return table.add_general([nearest_float(c) for f in polynomials for c in f])
+        return table.add_places(xs, ys)
+
+    def _frame(self) -> list[float]:
+        """Return the numbers of a frame."""
+        frame = self.near_frame + [0.0] * (24 - len(self.near_frame))
+        if self.kind == TURNING and self.turn != TURNS[0]:
+            frame[12:14] = map(nearest_float, self.turn)
+        return frame
 
 
 def value(f: Polynomial, t: QQ) -> QQ:
@@ -124,6 +167,15 @@ def power(exponent: int) -> QQ:
 
 def made(rng: Random, kind: int, style: str, sides: int) -> Piece:
     """Return a piece of so many vertices: a ring, a chain, or one point."""
+    piece = _since_0(rng, kind, style, sides)
+    if kind == STRAIGHT or rng.random() < 0.5:
+        return piece
+    origin = rng.choice((1.5, 1.0 / 3.0, rng.uniform(-1.0, 1.0) * 2.0 ** rng.randint(-20, 20)))
+    return replace(piece, origin=origin)
+
+
+def _since_0(rng: Random, kind: int, style: str, sides: int) -> Piece:
+    """Return a piece whose polynomials are in the time since 0."""
     edges = [*pairwise(range(sides)), (sides - 1, 0)]
     if sides == 2 or (sides > 2 and rng.random() < 0.2):
         edges.pop()
@@ -131,6 +183,8 @@ def made(rng: Random, kind: int, style: str, sides: int) -> Piece:
         own = [(_polynomial(rng, style, 4), _polynomial(rng, style, 4)) for _ in range(sides)]
         near = [c for x, y in own for c in _doubles(x) + _doubles(y)]
         return Piece(kind, [], [], own, [], [0.0] * 24, near, Errors(0.0, 0.0, 0.0), edges)
+    if kind == GENERAL:
+        return _general(rng, style, sides, edges)
     near_places = [(_double(rng, style), _double(rng, style)) for _ in range(sides)]
     error, places = _places(rng, style, near_places)
     degrees = {STRAIGHT: [2, 2], CURVED: [4, 4], TURNING: [4, 4, 4], AFFINE: [4] * 6}[kind]
@@ -146,7 +200,29 @@ def made(rng: Random, kind: int, style: str, sides: int) -> Piece:
             c1 += rng.choice((-1, 1)) * off_speed
             frame[k] = (c0, c1, *rest)
     errors = Errors(error, path, speed)
-    return Piece(kind, places, frame, [], near_places, near_frame, [], errors, edges)
+    turn = rng.choice(TURNS) if kind == TURNING else TURNS[0]
+    return Piece(kind, places, frame, [], near_places, near_frame, [], errors, edges, turn=turn)
+
+
+def _general(rng: Random, style: str, sides: int, edges: list[tuple[int, int]]) -> Piece:
+    """Return a piece of vertices at (x / w, y / w); w is 1, or positive at all times."""
+    terms = rng.randint(1, 7)
+    vertices = []
+    for _ in range(sides):
+        x, y = _polynomial(rng, style, terms), _polynomial(rng, style, terms)
+        w = [QQ(1)] + [QQ(0)] * (terms - 1)
+        if rng.random() < 0.7:
+            for i in range(2, terms, 2):
+                w[i] = abs(_coefficient(rng, style))
+        if terms > 2 and rng.random() < 0.5:  # (1 + c t)^2 + t^2 / 9
+            c = QQ(rng.randint(-9, 9), rng.choice((3, 8)))
+            w[1], w[2] = 2 * c, c * c + QQ(1, 9)
+        vertices.append((x, y, tuple(w)))
+    exact = Errors(0.0, 0.0, 0.0)
+    frame = [0.0] * 24
+    if rng.random() < 0.7:
+        frame[0], frame[4] = _double(rng, style), _double(rng, style)
+    return Piece(GENERAL, [], [], [], [], frame, [], exact, edges, general=vertices)
 
 
 def _double(rng: Random, style: str) -> float:

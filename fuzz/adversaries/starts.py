@@ -11,7 +11,7 @@ are: of pairs that are placed at random, it should be nearly always.
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import pairwise
 from math import cos, lcm, pi, sin
@@ -20,11 +20,11 @@ from typing import Final, NamedTuple, TypeAlias
 
 from exactpt.filters.features import Filter
 from exactpt.filters.rounding import U
-from exactpt.filters.rows import AFFINE, CURVED, OWN, STRAIGHT, TURNING, Errors, Table
+from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Errors, Table
 from exactpt.filters.starts import are_disjoint
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from fuzz.adversaries.boxes import show
-from fuzz.adversaries.pieces import KINDS, Piece, Point, Polynomial, power, value
+from fuzz.adversaries.pieces import KINDS, TURNS, Piece, Point, Polynomial, power, value
 
 __all__ = ["Found", "attack", "share_a_point"]
 
@@ -330,29 +330,41 @@ def _nudged(rng: Random, q: Shape) -> Shape:
 
 def _moving(rng: Random, shape: Shape, kind: int, t: float) -> Piece:
     """Return a piece that has a shape at a time, with a row that is as far off as it may be."""
-    at = rational(t)
+    origin = 0.0
+    if kind != STRAIGHT and rng.random() < 0.5:
+        origin = rng.choice((t, t - 1.0, rng.uniform(-99.0, 99.0)))
+    piece = _since_0(rng, shape, kind, rational(t) - rational(origin))
+    return replace(piece, origin=origin)
+
+
+def _since_0(rng: Random, shape: Shape, kind: int, at: QQ) -> Piece:
+    """Return a piece whose polynomials are in the time since 0."""
     if kind == OWN:
         return _own(rng, shape, at)
+    if kind == GENERAL:
+        return _general(rng, shape, at)
     degrees = {STRAIGHT: [2, 2], CURVED: [4, 4], TURNING: [4, 4, 2], AFFINE: [4, 4, 2, 2, 2, 2]}
     frame: list[Polynomial] = [
         tuple(QQ(rng.randint(-4, 4)) for _ in range(n)) + (QQ(0),) * (4 - n) for n in degrees[kind]
     ]
     a, b, c, d = QQ(1), QQ(0), QQ(0), QQ(1)
+    turn = rng.choice(TURNS) if kind == TURNING else TURNS[0]
     if kind == TURNING:
         h = value(frame[2], at)
-        a, c = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
+        cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
+        a, c = cosine * turn[0] - sine * turn[1], sine * turn[0] + cosine * turn[1]
         b, d = -c, a
     elif kind == AFFINE:
         a, b, c, d = (value(f, at) for f in frame[2:])
         if a * d == b * c:
-            return _moving(rng, shape, kind, t)
+            return _since_0(rng, shape, kind, at)
     px, py, det = value(frame[0], at), value(frame[1], at), a * d - b * c
     around = [(x - px, y - py) for x, y in shape.points]
     places = [((d * x - b * y) / det, (a * y - c * x) / det) for x, y in around]
     near, error = _near(rng, places)
     near_frame = [nearest_float(v) for f in frame for v in f]
     errors = Errors(error, 0.0, 0.0)
-    return Piece(kind, places, frame, [], near, near_frame, [], errors, shape.edges)
+    return Piece(kind, places, frame, [], near, near_frame, [], errors, shape.edges, turn=turn)
 
 
 def _own(rng: Random, shape: Shape, t: QQ) -> Piece:
@@ -365,6 +377,26 @@ def _own(rng: Random, shape: Shape, t: QQ) -> Piece:
     own = [(through(x), through(y)) for x, y in shape.points]
     near = [nearest_float(c) for pair in own for f in pair for c in f]
     return Piece(OWN, [], [], own, [], [0.0] * 24, near, Errors(0.0, 0.0, 0.0), shape.edges)
+
+
+def _general(rng: Random, shape: Shape, t: QQ) -> Piece:
+    """Return a piece of vertices that are quotients of polynomials of degree 5."""
+
+    def through(x: QQ) -> Polynomial:
+        rest = [QQ(rng.randint(-3, 3), 2**i) for i in range(1, 6)]
+        return x - value((QQ(0), *rest), t), *rest
+
+    frame = [0.0] * 24
+    frame[0], frame[4] = (rng.choice((0.0, nearest_float(c), 1.0 / 3.0)) for c in shape.points[0])
+    ax, ay = rational(frame[0]), rational(frame[4])
+    vertices: list[tuple[Polynomial, Polynomial, Polynomial]] = []
+    for x, y in shape.points:
+        c = QQ(rng.randint(-3, 3), 8)
+        w = (QQ(1), 2 * c, c * c + QQ(1, 64), QQ(0), QQ(0), QQ(0))  # (1 + c t)^2 + (t / 8)^2
+        at_t = value(w, t)
+        vertices.append((through((x - ax) * at_t), through((y - ay) * at_t), w))
+    exact = Errors(0.0, 0.0, 0.0)
+    return Piece(GENERAL, [], [], [], [], frame, [], exact, shape.edges, general=vertices)
 
 
 def _near(rng: Random, places: list[Point]) -> tuple[list[tuple[float, float]], float]:

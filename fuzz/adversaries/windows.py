@@ -41,6 +41,8 @@ def check(piece: Piece, rng: Random, report: Report) -> None:
     """Check a piece in a window at some times."""
     table, window = Table(), Window()
     middle, half = span(rng)
+    if rng.random() < 0.5:
+        middle += piece.origin
     number = piece.add_to(table, 0, middle - half, middle + half)
     window.fill(table, i64(number), middle, half)
     if not window.rho < INFINITY:
@@ -54,7 +56,7 @@ def check(piece: Piece, rng: Random, report: Report) -> None:
         for v, exact in enumerate(places):
             for first, coordinate in zip((X0, Y0), exact, strict=True):
                 off = abs(value_of(window, int(ROW) * v + int(first), s) - coordinate)
-                report.measure(nearest_float(off / rho))
+                report.measure(nearest_float(off / rho) if rho else 0.0)
                 if off > rho:
                     report.wrong.append(f"vertex {v} at {s} of {middle} {half}: {piece}")
             if not is_inside(window, exact):

@@ -20,9 +20,8 @@ from exactpt import (
     first_contact,
 )
 from exactpt.kernel.numbers import QQ
-from exactpt.pair.straight import span_of
 from exactpt.search import reading
-from exactpt.search.reading import straight_rows
+from exactpt.search.reading import rows_of
 from exactpt.testing import ending_at
 from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.changes.awkward import SUFFIX, awkward, awkward_variant
@@ -48,14 +47,12 @@ def test_mistake_is_made_and_undone(bug):
 
 
 def test_edited_function_is_wrong_for_those_who_imported_it_too():
-    """This module has `straight_rows` by name: a patch of `reading` would not reach it."""
-    span = span_of(QQ(0), QQ(1))
+    """This module has `rows_of` by name: a patch of `reading` would not reach it."""
     point = Body("point", [(0, 0)])
 
-    with Edit(reading, "straight_rows", "add_exact_ones()", "add_from(len(bodies))").made():
-        rows = straight_rows([point], span)
-        assert rows is None or rows.table.count() == 0
-    assert straight_rows([point], span).table.count() == 1
+    with Edit(reading, "rows_of", "is_exact = rows.add_all()", "is_exact = True").made():
+        assert rows_of([point], QQ(0), QQ(1)).table.count() == 0
+    assert rows_of([point], QQ(0), QQ(1)).table.count() == 1
 
 
 # What a test by hand shows best. The right values are derived in each docstring.

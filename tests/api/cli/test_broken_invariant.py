@@ -33,7 +33,7 @@ def test_an_error_raised_in_python_has_its_scene(tmp_path, monkeypatch, how):
     def broken(*_, **__):
         raise AuditError("broken on purpose")
 
-    monkeypatch.setattr("exactpt.search.features_sweep.PairsSearch.run_to_contact", broken)
+    monkeypatch.setattr("exactpt.search.sweep_search.SweepSearch.run_to_contact", broken)
     calls = {
         "simulation": partial(Simulation, scene),
         "kinetic": partial(first_contact, scene, method="kinetic"),

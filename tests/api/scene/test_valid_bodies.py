@@ -32,7 +32,6 @@ from exactpt import (
 from exactpt.batch import Options, answers
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.stored import Stored
-from exactpt.search.features_sweep import PairsSearch
 from exactpt.simulation.saved import tiling_from_json, tiling_to_json
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement
@@ -179,8 +178,8 @@ def test_rings_that_touch_at_rest_may_be_apart_under_a_motion_of_another_class()
         Simulation(Scene([body.with_motion(Translation())], (0, 2)))
 
 
-def test_without_boxes_the_pairs_are_searched_still():
-    """Of a simple body, auto would keep a tiling: most numbers are beyond the doubles."""
+def test_numbers_that_are_no_doubles_make_no_tiling_of_a_body_that_is_not_simple():
+    """Most numbers are beyond the doubles; a tiling refuses the body, the search has no boxes."""
     far = 10**400
     grown = Affine([[1, ["0", f"1/{far}"]], [["0", f"1/{far}"], 1]], x=[0, far])
     others = [
@@ -188,7 +187,7 @@ def test_without_boxes_the_pairs_are_searched_still():
     ]
     turning = Rigid([0, "1/100"])
     simple = Body("simple", SQUARE, turning, holes=[[(4, 1), (5, 2), (3, 2)]])
-    assert PairsSearch(Scene([simple, *others], (0, 1))).lacks_boxes
+    assert first_contact(Scene([simple, *others], (0, 1))) is None
     assert first_contact(Scene([notched(turning), *others], (0, 1))) is None
 
 

@@ -8,8 +8,6 @@ import pytest
 
 from exactpt import Body, Rigid, Scene, Simulation, Translation, first_contact
 from exactpt.cli.runs import collide
-from exactpt.motion import swept_edges
-from exactpt.search import features_sweep as pairs
 from exactpt.search.first import pair_search
 
 
@@ -78,23 +76,6 @@ def convoy(count):
         shape = [(x, y), (x + 2, y), (x + 1, y + 2)]
         bodies.append(Body(f"b{i}", shape, Translation([0, 0.7], [0, 0.3])))
     return Scene(bodies, time=(0, 1000))
-
-
-@pytest.mark.long
-def test_in_a_convoy_pairs_compares_no_edges(monkeypatch):
-    met = []
-    find = swept_edges.crossing_pairs
-
-    def counting(*boxes):
-        for first, second in find(*boxes):
-            met.append(len(first))
-            yield first, second
-
-    monkeypatch.setattr(swept_edges, "crossing_pairs", counting)
-
-    assert pairs.PairsSearch(convoy(1000)).run_to_contact() is None
-    assert met
-    assert not sum(met)
 
 
 def test_in_a_convoy_no_two_bodies_are_compared():

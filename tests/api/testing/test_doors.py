@@ -44,15 +44,14 @@ def test_audit_contact_at_the_start_has_no_tiling():
 
 
 def test_ending_at_each_look_in_turn_ends_a_search_there():
-    scene = generate("row", 3)
     with ending_at(None) as whole:
-        first_contact(scene, max_seconds=1)
+        first_contact(generate("row", 3), max_seconds=1)
 
     ended = []
     for look in range(1, whole.looks + 1):
         with ending_at(look) as clock:
             try:
-                first_contact(scene, max_seconds=1)
+                first_contact(generate("row", 3), max_seconds=1)  # a scene keeps what was read
             except BudgetExceeded:
                 ended.append(clock.looks_after)
 

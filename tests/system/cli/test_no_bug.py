@@ -85,7 +85,7 @@ def test_a_full_disk_behind_standard_error_is_no_contact(tmp_path, options, code
 @needs_full
 def test_a_bug_behind_a_full_disk_is_a_bug(tmp_path):
     write_scene(tmp_path, 1)
-    breaks = "import exactpt.search.features_sweep as p; p.initial_touches = lambda _: 1 // 0; "
+    breaks = "import exactpt.search.sweep_search as s; s.near_at_start = lambda *_: 1 // 0; "
     command = f"{breaks}from exactpt.cli import main; main()"
     with open("/dev/full", "w") as full:
         done = subprocess.run(

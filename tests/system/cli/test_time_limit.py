@@ -13,7 +13,6 @@ from commands import code_of
 from exactpt.cli.alarm import time_limit
 from exactpt.errors import BudgetExceeded
 from exactpt.scene.written import save
-from exactpt.search import features_sweep as pairs
 from exactpt.testing.scenes import generate
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.isolated import LEFT, IsolatedEvents
@@ -116,7 +115,6 @@ def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
 
 @pytest.mark.parametrize("name", ["collide", "collide in words", "collide pairs"])
 def test_at_start_up_the_start_is_told(scene, monkeypatch, capsys, name):
-    monkeypatch.setattr(pairs.PairsSearch, "_search", for_ever)
     monkeypatch.setattr("exactpt.search.sweep.Scan.compare", for_ever)
     monkeypatch.setattr(Tiling, "__init__", for_ever)
 

@@ -9,7 +9,7 @@ import pytest
 from librt.vecs import vec
 
 from exactpt.filters import boxes
-from exactpt.filters.boxes import Cut, Members, during, of_piece, sorted_by, strips
+from exactpt.filters.boxes import Cut, Drift, Members, during, of_piece, sorted_by, strips
 from exactpt.filters.rows import (
     AFFINE,
     EXACT,
@@ -39,17 +39,17 @@ def test_box_of_a_square_that_moves_holds_both_ends_of_its_way():
     # from x in [0, 1] to x in [6, 7] in two units of time, at y in [5, 6], within 1/4
     table = square((0.0, 3.0), (5.0,), radius=0.25)
 
-    assert of_piece(table, 0, 0.0, 2.0, 0.0, 0.0) == pytest.approx((-0.25, 7.25, 4.75, 6.25))
+    assert of_piece(table, 0, 0.0, 2.0, Drift()) == pytest.approx((-0.25, 7.25, 4.75, 6.25))
 
 
 def test_box_less_the_velocity_of_a_piece_is_that_of_a_piece_at_rest():
     table = square((0.0, 3.0), (5.0, -1.0))
 
-    assert of_piece(table, 0, 0.0, 2.0, 3.0, -1.0) == pytest.approx((0.0, 1.0, 5.0, 6.0))
+    assert of_piece(table, 0, 0.0, 2.0, Drift(3.0, -1.0)) == pytest.approx((0.0, 1.0, 5.0, 6.0))
 
 
 def test_box_is_not_smaller_than_the_piece_at_one_time():
-    left, right, bottom, top = of_piece(square((0.1,), (0.7,)), 0, 3.0, 3.0, 0.0, 0.0)
+    left, right, bottom, top = of_piece(square((0.1,), (0.7,)), 0, 3.0, 3.0, Drift())
 
     assert Fraction(left) <= Fraction(0.1)
     assert Fraction(right) >= Fraction(0.1) + 1
@@ -62,7 +62,7 @@ def test_boxes_during_a_window_are_those_of_pieces_that_last_in_it_with_its_ends
     for k, (start, end) in enumerate([(0.0, 1.0), (1.0, 2.0), (2.0, 3.0), (3.5, 4.0)]):
         table.add_straight(k, start, end, [0.0], [0.0], (0.0, 1.0), (), 0.0)
 
-    active, found = during(table, 1.0, 2.5, 0.0, 0.0)
+    active, found = during(table, 1.0, 2.5, Drift())
 
     assert list(active) == [0, 1, 2]
     assert list(found)[::4] == pytest.approx([1.0, 1.0, 2.0])  # left sides: x = t from then on
@@ -82,7 +82,7 @@ def test_box_of_vertices_of_their_own_is_the_plane_if_one_is_out_of_range(value,
         Piece(0, int(OWN), 1e3, 1e9, *ends, [0.0] * 24, (0.0,) * 4, EXACT, 0.0, deforms=True)
     )
 
-    assert of_piece(table, 0, 1e8, 1e9, 0.0, 0.0) == PLANE
+    assert of_piece(table, 0, 1e8, 1e9, Drift()) == PLANE
 
 
 @pytest.mark.parametrize("value", [NAN, INFINITY])
@@ -94,7 +94,7 @@ def test_box_of_a_path_or_an_error_out_of_range_is_the_plane(value, errors):
     else:
         (table.place_error, table.path_error, table.speed_error)[errors][0] = value
 
-    assert of_piece(table, 0, 1.0, 2.0, 0.0, 0.0) == PLANE
+    assert of_piece(table, 0, 1.0, 2.0, Drift()) == PLANE
 
 
 def test_box_of_an_affine_piece_has_the_error_of_its_places_times_the_matrix():
@@ -106,7 +106,7 @@ def test_box_of_an_affine_piece_has_the_error_of_its_places_times_the_matrix():
     box, errors = (2.0, 2.0, 3.0, 3.0), Errors(0.5, 0.0, 0.0)
     table.add_piece(Piece(0, int(AFFINE), 0.0, 1.0, *where, frame, box, errors, 0.0, deforms=False))
 
-    left, right, bottom, top = of_piece(table, 0, 0.0, 1.0, 0.0, 0.0)
+    left, right, bottom, top = of_piece(table, 0, 0.0, 1.0, Drift())
 
     assert left <= 150.0
     assert right >= 250.0
@@ -127,7 +127,7 @@ def test_box_of_a_piece_that_turns_has_the_error_of_its_places_in_all_directions
         Piece(0, int(TURNING), 0.0, 1.0, *where, frame, box, errors, 0.0, deforms=False)
     )
 
-    _, right, _, _ = of_piece(table, 0, 0.0, 1.0, 0.0, 0.0)
+    _, right, _, _ = of_piece(table, 0, 0.0, 1.0, Drift())
 
     assert right >= 1.25 * math.sqrt(2.0)
 
@@ -174,14 +174,24 @@ def test_order_of_keys_that_are_not_numbers_is_before_all_others():
 
 
 PIECES = {
-    "path: the slope of the drift": Edit(boxes, "course", "c1 - way", "c1 + way"),
-    "path: the place of the drift": Edit(boxes, "course", "c0 - shift", "c0 + shift"),
-    "path: its bend": Edit(boxes, "course", "abs(c2) + ", ""),
-    "path: its remainder": Edit(boxes, "course", "abs(c2) + rest", "abs(c2)"),
+    "path: the slope of the drift": Edit(boxes, "course", "c1 - d1", "c1 + d1"),
+    "path: the place of the drift": Edit(boxes, "course", "c0 - d0", "c0 + d0"),
+    "path: its bend": Edit(boxes, "course", "abs(c2 - d2) + ", ""),
+    "path: the bend of the drift": Edit(boxes, "course", "c2 - d2", "c2"),
+    "path: the slope of its bend": Edit(boxes, "course", "speed + 2.0 * bend", "speed + bend"),
+    "path: its remainder": Edit(boxes, "course", "abs(c2 - d2) + rest", "abs(c2 - d2)"),
     "path: its rounding": Edit(boxes, "course", "rest + rounding", "rest"),
     "vertices: one side": Edit(boxes, "around_vertices", "x - reach_x", "x"),
     "places: their rounding in x": Edit(boxes, "around_path", "+ low_x - rounding_x", "+ low_x"),
     "places: their rounding in y": Edit(boxes, "around_path", "+ high_y + rounding_y", "+ high_y"),
+    "vertices: w": Edit(
+        boxes, "around_vertices", "f, g = quotients(table, k, v,", "f, g = quotients(table, k, 0,"
+    ),
+    "vertices: their origin": Edit(boxes, "around_vertices", " - table.origin[k]", ""),
+    "path: its origin": Edit(boxes, "around_path", " - table.origin[k]", ""),
+    "error of the speed: the origin": Edit(
+        boxes, "of_piece", "abs(middle - table.origin[k])", "abs(0.0 * middle)"
+    ),
     "affine: as if not": Edit(boxes, "around_path", "== AFFINE", "== OWN"),
     "affine: reach": Edit(boxes, "image_along", "reach_a * size_x + ", ""),
     "affine: error": Edit(boxes, "image_along", " + (abs(a0) + abs(b0)) * error", ""),
@@ -190,7 +200,9 @@ PIECES = {
     ),
     "error of places": Edit(boxes, "of_piece", "2.0 * table.place_error[k] + ", ""),
     "error of the path": Edit(boxes, "of_piece", "table.path_error[k] + ", ""),
-    "error of the speed": Edit(boxes, "of_piece", " * latest", " * half"),
+    "error of the speed": Edit(
+        boxes, "of_piece", "speed_error[k] * latest", "speed_error[k] * half"
+    ),
     "radius": Edit(boxes, "of_piece", "table.radius[k] + ", ""),
 }
 PAIRS = {

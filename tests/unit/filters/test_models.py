@@ -54,6 +54,36 @@ def test_window_that_is_too_far_has_no_model(middle):
     assert not models.of_polynomial(vec[float]([1.0] * 4), 0, middle, 1.0)[3] < INFINITY
 
 
+@pytest.mark.parametrize("c", [NAN, INFINITY, -INFINITY])
+@pytest.mark.parametrize("k", range(6))
+def test_coefficient_of_a_long_polynomial_that_is_no_number_has_no_finite_remainder(c, k):
+    coefficients = [1.0] * 6
+    coefficients[k] = c
+
+    assert not models.of_long_polynomial(vec[float](coefficients), 0, 6, 0.5, 0.25)[3] < INFINITY
+
+
+@pytest.mark.parametrize("middle", [NAN, INFINITY, 2.0**101, 2.0**80])
+def test_window_that_is_too_far_has_no_model_of_a_long_polynomial(middle):
+    assert not models.of_long_polynomial(vec[float]([1.0] * 6), 0, 6, middle, 1.0)[3] < INFINITY
+
+
+def test_long_polynomial_of_degree_3_is_that_of_the_short_one():
+    c = vec[float]([3.0, -1.0, 0.5, 2.0])
+
+    long = models.of_long_polynomial(c, 0, 4, 0.75, 0.25)
+
+    assert long[:3] == models.of_polynomial(c, 0, 0.75, 0.25)[:3]
+    assert models.of_long_polynomial(c, 1, 1, 0.75, 0.25)[:3] == (-1.0, 0.0, 0.0)
+
+
+def test_constant_turn_of_90_degrees_makes_a_cosine_of_a_sine():
+    cosine, sine = models.turned((0.5, 0.25, 0.0, 0.0), (0.75, 0.125, 0.0, 0.0), 0.0, 1.0)
+
+    assert cosine[:3] == (-0.75, -0.125, 0.0)
+    assert sine[:3] == (0.5, 0.25, 0.0)
+
+
 @pytest.mark.parametrize("w", [(0.0, 1.0, 0.0, 0.0), (1.0, 0.5, 0.1, 0.0), (NAN, 0.0, 0.0, 0.0)])
 def test_inverse_of_what_may_vanish_has_no_finite_remainder(w):
     assert not models.inverse(w)[3] < INFINITY
@@ -83,6 +113,26 @@ def test_turn_by_no_number_has_no_finite_remainder():
 MISTAKES = {
     "polynomial: the cubic term": Edit(models, "of_polynomial", "(cubic + ", "("),
     "polynomial: its slope": Edit(models, "of_polynomial", "2.0 * c2 + 3.0", "2.0 * c2 + 2.0"),
+    "long polynomial: the cubic term": Edit(models, "of_long_polynomial", "(cubic + ", "("),
+    "long polynomial: the rounding": Edit(
+        models, "of_long_polynomial", "(cubic + rounding)", "cubic"
+    ),
+    "long polynomial: its constant": Edit(
+        models, "of_long_polynomial", "4.0 * float(terms + 4)", "0.1 * float(terms + 4)"
+    ),
+    "long polynomial: its third derivative": Edit(
+        models, "of_long_polynomial", "third * reach + second", "third * reach"
+    ),
+    "long polynomial: its bend": Edit(models, "of_long_polynomial", "half * half * bend", "bend"),
+    "constant turn: a sign": Edit(models, "turned", "minus(scaled", "plus(scaled"),
+    "constant turn: the error of a number": Edit(
+        models, "scaled", "f_rest + ROUNDING * size_of(f)", "f_rest"
+    ),
+    "constant turn: a remainder": Edit(models, "scaled", "(f_rest + ", "("),
+    "shift: its rounding": Edit(
+        models, "moved", "f_rest + ROUNDING * (abs(f0) + abs(by))", "f_rest"
+    ),
+    "shift: a number": Edit(models, "moved", "f0 + by", "f0 - by"),
     "sum: a remainder": Edit(models, "plus", "f_rest + g_rest", "f_rest"),
     "difference: a sign": Edit(models, "minus", "-g1", "g1"),
     "product: terms of the third order": Edit(models, "times", "high + ", ""),

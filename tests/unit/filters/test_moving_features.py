@@ -216,6 +216,37 @@ def test_edge_that_shrinks_to_a_point_is_a_candidate_of_its_own():
     assert {(0, 1), (2, 3)} <= ends
 
 
+def test_exact_only_leaves_whole_windows_to_exact_arithmetic():
+    """The point meets the edge at t = 3; boxes of the half of the span in which it does meet."""
+    table = Table()
+    add(table, CURVED, [(0.5, 4.0)], [(0.0, 0.0), (0.0, -1.0)])
+    add(table, CURVED, SQUARE, [(0.0, 0.0), (0.0, 0.0)])
+    found = Candidates(INFINITY)
+    search = Filter(table, exact_only=True)
+    search.collect(i64(0), i64(1), 0.0, 10.0, 0.0, found)
+
+    sharper = search.sharpen(found, 0.0)
+
+    assert found.limit == INFINITY
+    assert not any(found.sure)
+    assert len(sharper.rows()) == len(found.rows())
+    keys = {row[2:7] for row in found.rows() if row.low < 3.0 <= row.until}
+    assert (0, 0, 1, 2, NO_VERTEX) in keys
+
+
+def test_filter_looks_at_the_clock_in_windows():
+    looks = []
+    table = Table()
+    turn = [(0.0, 0.0), (0.0, 0.0), (-2.0, 0.5)]
+    add(table, TURNING, [(0.0, 0.0), (1.9, 0.0), (1.9, 0.1)], turn)
+    add(table, STRAIGHT, [(2.0, -9.0), (3.0, 0.0), (2.0, 9.0)], [(0.0, 0.0), (0.0, 0.0)])
+    search = Filter(table, look=lambda: looks.append(1))
+
+    search.collect(i64(0), i64(1), 0.0, 10.0, 0.0, Candidates(INFINITY))
+
+    assert looks
+
+
 def test_windows_apart_are_told_by_each_side():
     table, search = Table(), None
     add(table, STRAIGHT, SQUARE, [(0.0, 0.0), (0.0, 0.0)])

@@ -100,6 +100,26 @@ def test_vertices_of_their_own_are_numbered_by_eight_coefficients():
     assert table.add_own([0.0] * 8) == 3
 
 
+def test_general_vertices_are_numbered_by_where_their_numbers_begin():
+    table = Table()
+
+    assert table.add_general([0.0] * 18) == 0
+    assert table.add_general([0.0] * 9) == 18
+
+
+def test_copy_of_a_table_can_grow_alone():
+    table = Table()
+    table.add_piece(record(table))
+    other = table.copy()
+
+    other.add_piece(record(other))
+
+    assert (table.count(), other.count()) == (1, 2)
+    for name in VECTORS:
+        same = getattr(other, name)[: len(getattr(table, name))]
+        assert list(same) == list(getattr(table, name)), name
+
+
 @pytest.mark.parametrize("n", [1, 2, 5])
 def test_ring_of_vertices_ends_where_it_begins(n):
     table = Table()

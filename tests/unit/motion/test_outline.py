@@ -9,13 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import fractions
 
-from exactpt import Body, InputError, Polynomial, Scene, Translation
+from exactpt import Body, InputError, Polynomial, Translation
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.inside import covers, nested_pairs
 from exactpt.motion.outline import rest_outline
 from exactpt.motion.shape import Shape
-from exactpt.motion.swept_edges import SweptEdges
 
 numbers = st.fractions() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
 
@@ -126,18 +125,6 @@ def test_pairs_are_those_in_which_a_body_covers_a_vertex(offset):
     }  # fmt: skip
     assert nested_pairs(bodies, apart) == expected
     assert len(expected) > 10
-
-
-def test_vertices_are_not_compared_with_edges_of_their_own_rigid_body():
-    """Two boxes with many vertices on the sides that face each other slide past each other."""
-    n = 200
-    top = [*((QQ(i, n), 1) for i in range(n + 1)), (1, 2), (0, 2)]
-    bottom = [*((QQ(i, n), 0) for i in range(n + 1)), (1, -1), (0, -1)]
-    scene = Scene([Body("a", top, Translation([0, 1])), Body("b", bottom)], time=(-2, 2))
-    swept = SweptEdges(scene.bodies, scene.exact_start, scene.exact_end)
-    boxes = swept.during(scene.exact_start, scene.exact_end)
-    found = list(swept.meeting(boxes, swept.around(boxes)))
-    assert np.concatenate([v for v, _ in found]).size == 0
 
 
 # `stays_convex`, against the turns of the polygon at many rational times

@@ -6,7 +6,6 @@ from random import Random
 import pytest
 
 from exactpt import Body, Pieces, Planner, Scene, Translation, first_contact, first_within
-from exactpt.motion.outline import far_origin
 from exactpt.search.first import pair_search
 
 
@@ -64,22 +63,3 @@ def test_bug_a_plan_and_its_obstacles_had_different_origins(offset):
             scene = Scene([*obstacles, Body("robot", robot, plan)], time=(0, 20))
             expected = first_contact(scene, between=[(o.name, "robot") for o in obstacles])
             assert (contact and contact.time) == (expected and expected.time)
-
-
-def test_origin_is_for_far_bodies_whose_numbers_are_no_doubles():
-    third = Fraction(1, 3)
-
-    def origin(*places, shape=((0, 0), (1, 0), (0, 1))):
-        return far_origin(
-            [
-                Body("b", [(x + p, y + q) for p, q in shape], Translation([0, third]))
-                for x, y in places
-            ]
-        )
-
-    far = 10**9 + third
-    assert origin((far, 0), (far + 2, 0)) == (far, 0)
-    assert origin((far, 0), (0, 0)) is None  # not all are far
-    assert far_origin([Body("b", [(10.0**9, 0.5), (10.0**9, 2.5)])]) is None  # exact doubles
-    assert origin((0, 0), (2, 1)) is None
-    assert far_origin([]) is None

@@ -1,13 +1,17 @@
 """Bodies that spin far from all others: no piece of their motion is made."""
 
+from collections import Counter
 from fractions import Fraction
 from random import Random
 
 import pytest
 
 from exactpt import Body, Rigid, Scene, Spin, Translation, first_contact
+from exactpt.filters.rows import TURNING, WAITING
 from exactpt.motion.motions import REST
-from exactpt.search import far_spins, features_sweep
+from exactpt.search.query import Selection
+from exactpt.search.reading import rows_of
+from exactpt.search.sweep_search import SweepSearch, pairs_that_count
 
 
 def blade(name, at, omega, end=20, **options):
@@ -20,63 +24,84 @@ def post(name, x, motion=REST):
     return Body(name, [(x, -1), (x + 1, 0), (x, 1)], motion)
 
 
+def searched(scene, groups=(), *, with_all_pieces=False):
+    """The contact of a search, and how many rows of each kind of motion it has made."""
+    rows = rows_of(scene.bodies, scene.exact_start, scene.exact_end)
+    if with_all_pieces:
+        rows.make_all_pieces()
+    pairs = pairs_that_count(rows, Selection(scene, None, groups))
+    contact = SweepSearch(scene, rows, pairs).run_to_contact()
+    return contact, Counter(rows.table.kind)
+
+
 def test_spins_that_are_far_from_all_others_are_not_followed(monkeypatch):
     """Each piece of each body was a slab of time for all."""
     tracks, track = [], Rigid.track
     monkeypatch.setattr(Rigid, "track", lambda *a: tracks.append(1) or track(*a))
     bodies = [blade(f"b{i}", (11 * i, 0), 1) for i in range(4)]
 
-    assert first_contact(Scene([*bodies, post("post", -8)], (0, 20))) is None
-    of_the_start = len(tracks)
-    assert of_the_start <= 3 * len(bodies)
-    contact = first_contact(Scene([*bodies, post("post", -4)], (0, 20)))
+    contact, kinds = searched(Scene([*bodies, post("post", -8)], (0, 20)))
+    assert contact is None
+    assert (kinds[WAITING], kinds[TURNING]) == (4, 0)
+    assert len(tracks) <= 3 * len(bodies)  # of the start
+    contact, kinds = searched(Scene([*bodies, post("post", -4)], (0, 20)))
     assert {contact.pairs[0].body, contact.pairs[0].other} == {"b0", "post"}
-    assert len(tracks) > 3 * of_the_start
+    assert kinds[WAITING] == 4
+    assert kinds[TURNING] >= 1
+
+
+def test_pieces_are_made_up_to_the_slab_of_the_contact():
+    """A blade of 5 about (0, 0), turning by 1, meets a post at (-9/2, 0) within its first turn."""
+    blades = [blade("b", (0, 0), 1, 200)]
+    _, whole = searched(Scene(blades, (0, 200)), with_all_pieces=True)
+
+    contact, kinds = searched(Scene([*blades, post("post", Fraction(-9, 2))], (0, 200)))
+
+    assert contact.time < 7
+    assert 1 <= kinds[TURNING] < whole[TURNING] / 10
 
 
 @pytest.mark.parametrize(
-    "x, options, motion, count",
+    "x, options, motion, is_near",
     [
-        ("11/2", {}, REST, 0),  # farther than the farthest vertex
-        (5, {}, REST, 2),  # its distance, which a vertex has at some time
-        ("26/5", {}, REST, 0),
-        (6, {"x": [0, "1/10"]}, REST, 2),
-        (6, {}, Translation([0, "-1/10"]), 2),
-        (6, {}, Translation([0, "-1/24"]), 0),
-        (6, {"x": [0, 0, 1]}, REST, 2),  # a translation whose bounds are not known
-        (6, {}, Rigid([0, 1], pivot=(6, 0)), 2),
+        ("11/2", {}, REST, False),  # farther than the farthest vertex
+        (5, {}, REST, True),  # its distance, which a vertex has at some time
+        ("26/5", {}, REST, False),
+        (6, {"x": [0, "1/10"]}, REST, True),
+        (6, {}, Translation([0, "-1/10"]), True),
+        (6, {}, Translation([0, "-1/24"]), False),
+        (6, {"x": [0, 0, 1]}, REST, True),
+        (6, {}, Rigid([0, 1], pivot=(6, 0)), True),
     ],
 )
-def test_the_whole_span_counts(x, options, motion, count):
+def test_the_whole_span_counts(x, options, motion, is_near):
     bodies = [blade("b", (0, 0), 1, **options), post("post", Fraction(x), motion)]
-    assert len(far_spins.bodies_near_others(Scene(bodies, (0, 20)))) == count
     wide = [body.with_radius("1/8") for body in bodies]
-    assert len(far_spins.bodies_near_others(Scene(wide, (0, 20)))) == (0 if x == "11/2" else 2)
+    assert has_pieces(bodies) == is_near
+    assert has_pieces(wide) == (x != "11/2")
 
 
-def test_contacts_are_those_of_all_bodies(monkeypatch):
-    near, found = far_spins.bodies_near_others, []
-    for leaves_out in (True, False):
-        if not leaves_out:
-            monkeypatch.setattr(
-                features_sweep, "bodies_near_others", lambda scene: [*range(len(scene.bodies))]
-            )
-        random = Random("spins")
-        for _ in range(4):
-            bodies = [
-                blade(f"b{i}", (12 * i, 0), random.choice([-2, -1, 1, 2]), 2) for i in range(3)
-            ]
-            bodies.insert(
-                1,
-                post(
-                    "post",
-                    12 * random.randint(0, 2) + random.randint(-5, 5),
-                    Translation([0, "1/5"]),
-                ),
-            )
-            scene = Scene(bodies, (0, 2))
-            assert 2 <= len(near(scene)) <= 4
-            groups = [["b0", "post"]] if random.random() < 0.5 else []
-            found.append(first_contact(scene, ignoring=groups))
-    assert found[:4] == found[4:]
+def has_pieces(bodies):
+    """Whether pieces of the first body are made in a search."""
+    scene = Scene(bodies, (0, 20))
+    rows = rows_of(scene.bodies, scene.exact_start, scene.exact_end)
+    SweepSearch(scene, rows, pairs_that_count(rows, Selection(scene))).run_to_contact()
+    return list(rows.table.body).count(0) > 1
+
+
+def test_contacts_are_those_of_bodies_with_all_their_pieces():
+    random, found = Random("spins"), []
+    for _ in range(4):
+        bodies = [blade(f"b{i}", (12 * i, 0), random.choice([-2, -1, 1, 2]), 2) for i in range(3)]
+        x = 12 * random.randint(0, 2) + random.randint(-5, 5)
+        bodies.insert(1, post("post", x, Translation([0, "1/5"])))
+        scene = Scene(bodies, (0, 2))
+        groups = [["b0", "post"]] if random.random() < 0.5 else []
+
+        contact, kinds = searched(scene, groups)
+        expected, all_kinds = searched(scene, groups, with_all_pieces=True)
+
+        assert contact == expected == first_contact(scene, ignoring=groups)
+        assert kinds[TURNING] <= all_kinds[TURNING]
+        found.append(contact)
     assert len({contact.time for contact in found if contact}) > 1

@@ -4,15 +4,14 @@ from fractions import Fraction
 from itertools import combinations
 from random import Random
 
-import numpy as np
 import pytest
 
 from benchmarks.shapes import crowd
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
 from exactpt.kernel.numbers import QQ
 from exactpt.pair.features import FeaturePair
-from exactpt.pair.start import near_at_start, within_at_start
-from exactpt.search.approach_search import ApproachSearch
+from exactpt.search.reading import rows_of
+from exactpt.search.sweep_search import AllPairs, Slabs, Sweep
 from exactpt.testing import reference
 from exactpt.testing.scenes import FAMILIES, generate
 from fuzz.questions.tiny import touching_scene
@@ -20,17 +19,18 @@ from fuzz.questions.tiny import touching_scene
 
 def search(scene, d):
     """The time and the pairs of the first approach; None if there is none."""
-    limit, reach = lambda i, j: d * d, [d / 2] * len(scene.bodies)  # noqa: ARG005
-    candidate_pairs = near_at_start(scene, reach, np.not_equal)
-    if at_start := tuple(ij for ij, _ in within_at_start(scene, limit, candidate_pairs)):
-        return scene.start, at_start
-    return time_and_pairs(ApproachSearch(scene, limit, reach).run())
-
-
-def time_and_pairs(found):
+    found = first_within(scene, distance=d)
     if found is None:
         return None
-    return found.time, tuple(sorted({tuple(sorted((t.body, t.other))) for t in found.touches}))
+    numbers = {body.name: k for k, body in enumerate(scene.bodies)}
+    pairs = (tuple(sorted((numbers[a], numbers[b]))) for a, b in found.pairs)
+    return found.time, tuple(sorted(pairs))
+
+
+def sweep_of(scene, d):
+    """A sweep for approaches within a distance after the start."""
+    rows = rows_of(scene.bodies, scene.exact_start, scene.exact_end, d / 2)
+    return Sweep(rows, Slabs(rows, AllPairs(rows, with_themselves=False)), lambda *_: d * d)
 
 
 def by_pairs(scene, d):
@@ -60,15 +60,11 @@ def test_the_least_of_all_pairs(family):
         assert search(scene, QQ(extent) / 30) == by_pairs(scene, QQ(extent) / 30)
 
 
-def test_pairs_with_limits_of_their_own():
-    bodies = [Body(f"p{i}", [(10 * i, 0)], Translation([0, -i])) for i in range(3)]
-    radius = [1, 2, 3]
+def test_pairs_with_radii_of_their_own():
+    """p1 and p2 are 10 - t apart, and within 2 + 3 at t = 5; p0 and p1 within 1 + 2 at t = 7."""
+    bodies = [Body(f"p{i}", [(10 * i, 0)], Translation([0, -i]), radius=i + 1) for i in range(3)]
 
-    found = ApproachSearch(
-        Scene(bodies, (0, 20)), lambda i, j: QQ(radius[i] + radius[j]) ** 2, list(map(QQ, radius))
-    ).run()
-
-    assert time_and_pairs(found) == (QQ(5), ((1, 2),))
+    assert search(Scene(bodies, (0, 20)), QQ(0)) == (QQ(5), ((1, 2),))
 
 
 def test_a_turning_body():
@@ -171,27 +167,17 @@ def test_distances_beyond_the_range_of_doubles(d):
         assert found == (None if least is None else Approach(least, pairs))
 
 
-@pytest.mark.long
-def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
-    """Without a limit, all intervals would be halved to the end: 130,000 of them."""
-    asked = []
-    may_be_near = ApproachSearch._may_be_near
-
-    def counted(self, *arguments):
-        asked.append(len(arguments[-1]))
-        return may_be_near(self, *arguments)
-
-    monkeypatch.setattr(ApproachSearch, "_may_be_near", counted)
+def test_bodies_that_hover_are_decided_exactly_in_few_windows():
+    """Without a limit, all windows would be halved to the end: 130,000 of them."""
     hub = Body("hub", [(0, 0), (1, 0), (1, 1), (0, 1)])
     arms = [Body(f"a{i}", [(2 + i, 0), (2 + i, 2)], Rigid([0, 1], pivot=(0, 0))) for i in range(4)]
     scene = Scene([hub, *arms], (-2, 2))
 
-    assert search(scene, QQ(1, 2)) is None
-    # Distances keep to themselves; one that another pair keeps is larger than those of some.
-    half = [QQ(1, 2)] * len(scene.bodies)
-    found = ApproachSearch(scene, lambda _, j: QQ(1, 9) if j > 1 else QQ(0), half).run()
-    assert found is None
-    assert len(asked) < 2000
+    sweep = sweep_of(scene, QQ(1, 2))
+
+    assert sweep.first_after_start() is None
+    assert sweep.compared < 2000
+    assert sweep.exact < 10
 
 
 def test_bodies_that_stay_apart():
@@ -200,29 +186,24 @@ def test_bodies_that_stay_apart():
     assert first_within(Scene([]), distance=4) is None
 
 
-@pytest.mark.plain
-def test_numbers_out_of_range_are_not_bisected(monkeypatch):
-    """Without boxes all pairs are in one slab; pairs that stay near are, after a few halves."""
-    decided = []
-    decide = ApproachSearch._decide
-    monkeypatch.setattr(
-        ApproachSearch, "_decide", lambda self, *given: decided.append(1) or decide(self, *given)
-    )
+def test_numbers_out_of_range_are_not_bisected():
+    """Distances that filters hardly know are decided exactly, once for each slab."""
     tiny = Fraction(1, 10**400)
     unknown = [
         Body(str(i), [(3 * i, 0)], Translation([0, tiny], [0, tiny * i, 1])) for i in range(12)
     ]
-    assert search(Scene(unknown, (0, 5)), QQ(2)) is None
-    assert len(decided) <= 4
-    decided.clear()
+    sweep = sweep_of(Scene(unknown, (0, 5)), QQ(2))
+    assert sweep.first_after_start() is None
+    assert sweep.exact <= 4
 
-    candidate_pairs = []
+    near = []
     for i in range(8):
-        candidate_pairs.append(Body(f"post {i}", [(10 * i, 0)]))
+        near.append(Body(f"post {i}", [(10 * i, 0)]))
         turn = Rigid([0, 1], pivot=(10 * i, 0))
-        candidate_pairs.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
-    assert search(Scene(candidate_pairs, (0, 2)), QQ(2)) is None
-    assert len(decided) <= 300
+        near.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
+    sweep = sweep_of(Scene(near, (0, 2)), QQ(2))
+    assert sweep.first_after_start() is None
+    assert sweep.exact <= 300
 
 
 def test_two_bodies_of_many_vertices_need_few_exact_decisions(monkeypatch):

@@ -11,32 +11,15 @@ import pytest
 from exactpt import Body, Contact, Pieces, Scene, Translation, first_contact, first_within
 from exactpt.kernel.numbers import QQ
 from exactpt.pair import incidences
-from exactpt.search.features_sweep import PairsSearch
 from exactpt.search.first import pair_search
 from exactpt.testing import reference
 from exactpt.testing.agreement import disagreement
-from exactpt.testing.scenes import generate
 
 HEIGHTS = [0.0, 0.0, 0.0, 1.0, 2.0, 1e-9]
 
 
 def summary(contact):
     return None if contact is None else json.dumps(contact.to_json())
-
-
-@pytest.mark.parametrize(
-    "family, is_swept",
-    [
-        ("convex", True), ("row", True), ("pieces", True), ("stars", True), ("combs", True),
-        ("linear_points", True),
-        ("turning", False), ("deforming", False), ("ballistic", False), ("blobs", False),
-    ],
-)  # fmt: skip
-def test_search_sweeps_rows_if_all_bodies_move_straight(family, is_swept):
-    """Translations of degree 1, in pieces or not, are swept; scenes of other motions are not."""
-    counts, _ = counts_of(generate(family, 0))
-
-    assert ("slabs" in counts) == is_swept
 
 
 def odd(rng, x):
@@ -216,7 +199,8 @@ def test_exact_vertices_are_made_for_what_may_touch_alone():
     made = [body for body in scene.bodies if body.exact_shape.is_exact]
     assert contact is not None
     assert len(made) < 40
-    assert summary(contact) == summary(PairsSearch(scene).run_to_contact())
+    exactly = pair_search(scene, exact_only=True)
+    assert summary(contact) == summary(exactly.run_to_contact())
 
 
 def test_points_and_normals_are_computed_on_demand(monkeypatch):
