@@ -35,6 +35,9 @@ FACTORS: Final = (QQ(1), QQ(2, 3), QQ(10, 7), QQ(7, 9), QQ(1000, 13))
 FAR: Final = (1, 1, 1, 1000, 10**6)
 """Sizes of the shift in space, in units of the scene."""
 
+LATE: Final = (2, 2, 2, 1000, 10**9)
+"""Sizes of the shift in time."""
+
 
 def awkward_number(random: Random, most: int) -> QQ:
     """Return a multiple of 1/3, 1/7, 1/9 or 1/13 from -most to most."""
@@ -52,7 +55,7 @@ def awkward_variant(random: Random) -> Variant:
         matrix=turn,
         shift=(awkward_number(random, 3 * far), awkward_number(random, 3 * far)),
         rate=QQ(random.choice([1, 2, 4, 7]), random.choice(DENOMINATORS)),
-        delay=awkward_number(random, 2),
+        delay=awkward_number(random, random.choice(LATE)),
         drift=(awkward_number(random, 1), awkward_number(random, 1)),
         renumber=random.choice(["none", "turned", "reversed"]),
         reorder=random.random() < 0.5,

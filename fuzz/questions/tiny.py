@@ -49,6 +49,7 @@ def pair_scene(random: Random) -> Scene:
             Pieces([(1, Translation([0, 1])), (None, Translation([2, -1]))]),
             Pieces([(1, Translation([0, 1])), (None, Translation([0, 1], [-1, 1]))]),
             Pieces([(2, Translation([0])), (None, Translation([0], [2, -1]))]),
+            Affine([[[1, "-1/2"], [0]], [[0], [1]]]),  # flat at t = 2
         ]
         motion, closed = random.choice(motions), random.random() < 0.6
         if len(parts) == len(parts[0]) == 1:
