@@ -452,8 +452,8 @@ PLANTED: Final[dict[str, Mistake]] = {
         "Rounded numbers are taken for exact ones.",
         Edit(
             BodyRows,
-            "_translated",
-            "Errors(places.error, max(x.errors[0], y.errors[0]), max(x.errors[1], y.errors[1]))",
+            "_line",
+            "Errors(places.error, path, speed)",
             "EXACT",
         ),
     ),
@@ -489,6 +489,15 @@ PLANTED: Final[dict[str, Mistake]] = {
     "a distance forgotten where rows are kept": Mistake(
         "What is kept of one question is used for another.",
         Edit(Rows, "grown", "self._extra + extra", "self._extra"),
+    ),
+    "a distance forgotten by rows that wait": Mistake(
+        "What changes rows does not change those that are still to be made.",
+        Edit(
+            Rows,
+            "_copied",
+            "reader.adding_to(other.table, radius)",
+            "reader.adding_to(other.table, 0.0)",
+        ),
     ),
     "an anchor at (x, x)": Mistake(
         "One coordinate is used for both.",

@@ -60,6 +60,8 @@ The cosine and the sine of the constant turn are two numbers; both are 0 if ther
 COEFFICIENTS: Final[i64] = 8
 """Coefficients of a vertex that moves by itself: of x, and from `OWN_Y` on of y."""
 OWN_Y: Final[i64] = 4
+LINE: Final[i64] = 2
+"""Coefficients of a path of degree 1."""
 POLYNOMIALS: Final[i64] = 3
 """Polynomials of a vertex of a `GENERAL` piece: x, y, w."""
 
@@ -73,10 +75,9 @@ TOP: Final[i64] = 3
 Box: TypeAlias = tuple[float, float, float, float]
 """left, right, bottom, top: no record, as compiled code makes no object of a tuple of floats."""
 
-NO_FRAME: Final = [0.0] * 24
 NO_BOX: Box = (0.0, 0.0, 0.0, 0.0)
-"""The frame and the box of a piece of which each vertex moves by itself; a constant tuple of floats
-must not be Final, or compiled modules find no value."""
+"""The box of a piece of which each vertex moves by itself; a constant tuple of floats must not be
+Final, or compiled modules find no value."""
 
 
 class Errors(NamedTuple):
@@ -162,7 +163,8 @@ class Table:
         start, end: the times between which it lasts: the last double that is not after the exact
             start, and the first one that is not before the exact end.
         origin: the time since which its polynomials are; 0 if it is `STRAIGHT`.
-        terms: the number of coefficients of a polynomial, if the piece is `GENERAL`.
+        terms: the number of coefficients of a polynomial, if the piece is `GENERAL`; `LINE` if it
+            is `WAITING` and its path is that of a `STRAIGHT` piece.
         place: the number of its first place (`OWN`: of its first vertex in ``own``; `GENERAL`:
             where its first vertex begins in ``general``).
         size: the number of its vertices.

@@ -132,17 +132,22 @@ def meeting(table: Table, a: i64, b: i64, low: float, high: float) -> tuple[floa
     The first bound is larger than the second if they do not intersect at all. Along x, the boxes
     intersect while
         left of b - right of a <= cx + wx t <= right of b - left of a.
-    The error is that of two places, of c, and of w times |t|.
+    with the sum of the radii on both sides. The error is that of two places, of c, and of w times
+    |t|. Rounding: both bounds are at least that sum away from the middle between them, so their
+    sizes add up to twice the sum or more, and `while_between` covers one more difference.
     """
     cx, wx = relative_path(table, a, b, PATH_X)
     cy, wy = relative_path(table, a, b, PATH_Y)
     c_error = table.path_error[a] + table.path_error[b]
     w_error = table.speed_error[a] + table.speed_error[b] + U2 * (abs(wx) + abs(wy))
     error = table.place_error[a] + table.place_error[b] + c_error + w_error * larger_size(low, high)
+    reach = (table.radius[a] + table.radius[b]) * SLACK
     left_a, right_a, bottom_a, top_a = table.box(a)
     left_b, right_b, bottom_b, top_b = table.box(b)
-    low, high = while_between(cx, wx, left_b - right_a, right_b - left_a, error, low, high)
-    return while_between(cy, wy, bottom_b - top_a, top_b - bottom_a, error, low, high)
+    first_x, last_x = (left_b - right_a) - reach, (right_b - left_a) + reach
+    first_y, last_y = (bottom_b - top_a) - reach, (top_b - bottom_a) + reach
+    low, high = while_between(cx, wx, first_x, last_x, error, low, high)
+    return while_between(cy, wy, first_y, last_y, error, low, high)
 
 
 def while_between(

@@ -7,13 +7,14 @@ relative to the anchor, which the path of a piece carries:
     turning               the pivot
     affine                the origin
 
-So a place is rounded by U of the size of the body, however far from the origin the body is.
+So in units of its own a place is rounded by U of the size of the body, however far away it is.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Iterable, Sequence
+from itertools import count
 from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.filters.rounding import LARGEST, SLACK, SMALLEST, TINY, U
@@ -23,6 +24,7 @@ from exactpt.filters.rows import (
     EXACT,
     FRAME,
     GENERAL,
+    LINE,
     NO_BOX,
     OWN,
     OWN_Y,
@@ -71,23 +73,36 @@ class Places(NamedTuple):
         number: that of the first place in the table.
         box: of all of them.
         error: a bound of what rounding has changed.
+        farthest_squared: the largest squared distance of a place from the anchor, rounded.
     """
 
     number: int
     box: Box
     error: float
+    farthest_squared: float
 
     @property
     def turned_box(self) -> Box:
         """A box of all turns of the places about the anchor.
 
-        A place is at the distance sqrt(x^2 + y^2), of which the sizes of the sides of the box
-        are bounds; the square root of three rounded operations is off by 4 U of itself.
+        The square root of three rounded operations is off by less than 4 U of itself.
         """
-        left, right, bottom, top = self.box
-        x, y = max(abs(left), abs(right)), max(abs(bottom), abs(top))
-        reach = (math.sqrt(x * x + y * y) + 2.0 * self.error) * SLACK + TINY
+        reach = (math.sqrt(self.farthest_squared) + 2.0 * self.error) * SLACK + TINY
         return -reach, reach, -reach, reach
+
+
+@final
+class MotionNumbers:
+    """Numbers of motions, from 1 on: equal motions have equal ones, also in several threads."""
+
+    def __init__(self) -> None:
+        self._known: dict[Hashable, int] = {}
+        self._next = count(1)
+
+    def of(self, motion: Hashable) -> int:
+        """Return the number of a motion."""
+        known = self._known.get(motion)
+        return self._known.setdefault(motion, next(self._next)) if known is None else known
 
 
 @final
@@ -100,7 +115,8 @@ class BodyRows:
         number: the number of the body.
         body: the body.
         radius: at least its radius and what is added to it, in units.
-        together: the numbers of motions that several bodies may have in common.
+        numbers: those of motions that several bodies may have in common; None if they do not
+            matter.
     """
 
     def __init__(
@@ -110,9 +126,9 @@ class BodyRows:
         number: int,
         body: Body,
         radius: float,
-        together: dict[Hashable, int],
+        numbers: MotionNumbers | None,
     ) -> None:
-        self._together = together
+        self._numbers = numbers
         self._table = table
         self._units = units
         self._number = number
@@ -132,10 +148,10 @@ class BodyRows:
         self._places: dict[Point, Places] = {}
         self._loses_tiny_ones = False  # of the coefficients of the path at hand
 
-    def adding_to(self, table: Table) -> BodyRows:
-        """Return what reads the same body into another table."""
-        number, body, radius = self._number, self._body, self._radius
-        return BodyRows(table, self._units, number, body, radius, self._together)
+    def adding_to(self, table: Table, radius: float) -> BodyRows:
+        """Return what reads the same body into another table, with another radius."""
+        number, body = self._number, self._body
+        return BodyRows(table, self._units, number, body, radius, self._numbers)
 
     def waiting(self, span: Span) -> Row | None:
         """Return a row that stands for all pieces; None if these are to be made at once.
@@ -147,10 +163,17 @@ class BodyRows:
             return None
         if not _are_short(motion.x, motion.y):
             return None
-        origin = _origin(span.low, span.high)
-        frame = self._path(motion, motion.exact_pivot, origin)
-        box = self._places_from(motion.exact_pivot).turned_box
-        piece = self._piece(span, WAITING, frame=frame, box=box, origin=origin)
+        places = self._places_from(motion.exact_pivot)
+        if max(motion.x.degree, motion.y.degree) < int(LINE):
+            frame, errors = self._line(motion, motion.exact_pivot, places)
+            origin, terms = 0.0, int(LINE)
+        else:
+            origin, terms, errors = _origin(span.low, span.high), 0, EXACT
+            frame = self._path(motion, motion.exact_pivot, origin)
+        box = places.turned_box
+        piece = self._piece(
+            span, WAITING, frame=frame, box=box, errors=errors, origin=origin, terms=terms
+        )
         return Row(span.start, span.end, piece._replace(size=0, edges=0))
 
     def row_after(self, start: QQ, span: Span) -> Row:
@@ -190,11 +213,17 @@ class BodyRows:
             path = _numbers(motion.x)[1:], _numbers(motion.y)[1:]
             piece = self._piece(span, CURVED, places, frame=frame, origin=origin)
             return piece._replace(together=self._number_of(path))
-        x = self._rounded(self._along(motion.x, anchor[0], 0, 0.0))
-        y = self._rounded(self._along(motion.y, anchor[1], 1, 0.0))
-        errors = Errors(places.error, max(x.errors[0], y.errors[0]), max(x.errors[1], y.errors[1]))
-        frame = frame_of(x.near, y.near)
+        frame, errors = self._line(motion, anchor, places)
         return self._piece(span, STRAIGHT, places, frame=frame, errors=errors)
+
+    def _line(
+        self, motion: Translation | Spin, anchor: Point, places: Places
+    ) -> tuple[list[float], Errors]:
+        """Return the frame of a path of degree 1, and the errors of a row with these places."""
+        x = self._rounded(self._exactly_along(motion.x, anchor[0], 0, 0.0))
+        y = self._rounded(self._exactly_along(motion.y, anchor[1], 1, 0.0))
+        path, speed = max(x.errors[0], y.errors[0]), max(x.errors[1], y.errors[1])
+        return frame_of(x.near, y.near), Errors(places.error, path, speed)
 
     def _turning(self, motion: Rigid, span: Span, origin: float) -> Piece:
         """Return the row of a body that turns about a pivot."""
@@ -212,8 +241,8 @@ class BodyRows:
         return piece._replace(together=together)
 
     def _number_of(self, motion: Hashable) -> int:
-        """Return the number of a motion that bodies may have in common, from 1 on."""
-        return self._together.setdefault(motion, len(self._together) + 1)
+        """Return the number of a motion that bodies may have in common; 0 if it does not matter."""
+        return 0 if self._numbers is None else self._numbers.of(motion)
 
     def _affine(self, motion: Affine, span: Span, origin: float) -> Piece:
         """Return the row of a body whose places are mapped by a matrix."""
@@ -238,6 +267,7 @@ class BodyRows:
         for vertex in range(self._body.size):
             track = piece.track(vertex)
             if len(track.w) > 1 or max(len(track.x), len(track.y)) > TERMS:
+                self._loses_tiny_ones = False
                 return None
             for axis, f in enumerate((track.x, track.y)):
                 coefficients = [QQ(c, track.w[0]) for c in f]
@@ -354,7 +384,8 @@ class BodyRows:
             is_exact = _are_doubles(x_exact, xs) and _are_doubles(y_exact, ys)
         box = min(xs), max(xs), min(ys), max(ys)
         error = 0.0 if is_exact else _off(max(map(abs, box)))
-        places = Places(self._table.add_places(xs, ys), box, error)
+        farthest_squared = max([x * x + y * y for x, y in zip(xs, ys, strict=True)])
+        places = Places(self._table.add_places(xs, ys), box, error, farthest_squared)
         self._places[anchor] = places
         return places
 
@@ -368,13 +399,18 @@ class BodyRows:
 
     def _along(self, f: Polynomial, anchor: QQ, axis: int, origin: float) -> Sequence[QQ | float]:
         """Return the path of a coordinate of an anchor, in units: each coefficient within U."""
+        doubles, near = f.exact_doubles, nearest_float(anchor)
+        if self._units.is_identity and doubles is not None and not origin and near == anchor:
+            return ((doubles[0] if doubles else 0.0) + near, *doubles[1:])
+        return self._exactly_along(f, anchor, axis, origin)
+
+    def _exactly_along(
+        self, f: Polynomial, anchor: QQ, axis: int, origin: float
+    ) -> Sequence[QQ | float]:
+        """Return the path of a coordinate of an anchor, in units."""
         doubles = f.exact_doubles
-        if self._units.is_identity and doubles is not None and not origin:
-            if not anchor:
-                return doubles
-            near = nearest_float(anchor)
-            if near == anchor:
-                return ((doubles[0] if doubles else 0.0) + near, *doubles[1:])
+        if self._units.is_identity and doubles is not None and not origin and not anchor:
+            return doubles
         first, *rest = f.exact_coefficients or (NOTHING,)
         return self._place_in_time([first + anchor, *rest], axis, origin)
 

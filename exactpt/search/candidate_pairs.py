@@ -37,8 +37,8 @@ def candidate_pairs(scene: Scene, reach: QQ) -> dict[tuple[int, int], Spans]:
         low, high = time(slab.low), time(slab.high)
         for one, two in slab.pairs.rows():
             i, j = sorted((int(table.body[one]), int(table.body[two])))
-            begin = max(low, spans[one][0], spans[two][0])
-            until = min(high, spans[one][1], spans[two][1])
+            begin = max(start, low, spans[one][0], spans[two][0])
+            until = min(end, high, spans[one][1], spans[two][1])
             if begin <= until:  # doubles around two spans may meet where the spans do not
                 found.setdefault((i, j), set()).add((begin, until))
     return {pair: sorted(found[pair]) for pair in sorted(found)}

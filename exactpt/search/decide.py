@@ -14,7 +14,7 @@ from typing import TypeAlias, final
 
 from exactpt.filters.candidates import Candidate, Candidates
 from exactpt.filters.exactly import first_exactly
-from exactpt.filters.rows import STRAIGHT
+from exactpt.filters.rows import AFFINE, STRAIGHT
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, of_double
@@ -69,7 +69,7 @@ class Decider:
         if self._trace is not None:
             self._trace.filtered(candidates, found.limit, until)
         # The attempt in doubles is for ties, of which a lone candidate has none.
-        if len(candidates) == 1 or not self._decide_in_doubles(found, until):
+        if len(candidates) < 2 or not self._decide_in_doubles(found, until):
             self._decide_one_by_one(candidates, min(found.limit, until))
         self._low = until
 
@@ -126,24 +126,25 @@ class Decider:
                 return
             check_budget()
             self.exact += 1
-            begin = self._first(candidate, self.best.until(end))
+            begins = self._first(candidate, self.best.until(end))
             if self._trace is not None:
-                self._trace.candidate(candidate, begin)
-            if begin is not None:
+                self._trace.candidate(candidate, begins)
+            for begin in begins:
                 self._add(begin.time, [begin.incidence])
 
-    def _first(self, candidate: Candidate, until: QQ) -> Begin | None:
-        """Return when two features first touch, up to a time; None if they do not."""
+    def _first(self, candidate: Candidate, until: QQ) -> list[Begin]:
+        """Return when two features first touch, up to a time; nothing if they do not."""
         rows, table = self._rows, self._rows.table
         one, other = candidate.one, candidate.other
         (one_start, one_end), (other_start, other_end) = rows.spans[one], rows.spans[other]
         since = max(rows.span.start, one_start, other_start)
         until = min(until, one_end, other_end)
         if not since < until:
-            return None
+            return []
         squared = self._squared(table.body[one], table.body[other])
         if not squared and table.kind[one] == table.kind[other] == STRAIGHT:
-            return self._first_of_straight(candidate, since, until)
+            begin = self._first_of_straight(candidate, since, until)
+            return [] if begin is None else [begin]
         if math.isfinite(candidate.low):  # they do not touch before it
             before = math.nextafter(candidate.low, -math.inf)
             since = max(since, rows.units.exact_time(before))
@@ -178,20 +179,34 @@ class Decider:
             return Begin(met.time, Incidence(i, vertex, j, candidate.edge, -1))
         return Begin(met.time, vertex_touch(i, vertex, j, (begin, end)[met.end]))
 
-    def _first_of_any(
-        self, candidate: Candidate, squared: QQ, since: QQ, until: QQ
-    ) -> Begin | None:
-        """Return when two features first have a squared distance after a time, by polynomials."""
+    def _first_of_any(self, candidate: Candidate, squared: QQ, since: QQ, until: QQ) -> list[Begin]:
+        """Return when two features first have a squared distance after a time, by polynomials.
+
+        An edge that deforms may be a point for a moment. Then a vertex that comes to it touches
+        both ends, but is on no edge: so it is compared with each end, too.
+        """
         if not since < until:
-            return None
+            return []
+        other = candidate.other
+        ends: tuple[int, ...] = (candidate.other_vertex,)
+        if candidate.edge >= 0:
+            ends = self._rows.ends_of(other, candidate.edge)
+        if len(set(ends)) == 1:  # a point is an edge from its vertex to itself
+            ends = ends[:1]
+        choices = [ends]
+        if len(ends) == 2 and not squared and self._rows.table.kind[other] >= AFFINE:
+            choices += [(end,) for end in ends]
+        begins = (self._first_of(candidate, some, squared, since, until) for some in choices)
+        return [begin for begin in begins if begin is not None]
+
+    def _first_of(
+        self, candidate: Candidate, ends: tuple[int, ...], squared: QQ, since: QQ, until: QQ
+    ) -> Begin | None:
+        """Return when a vertex first has a squared distance from an edge, or a vertex."""
         rows, table = self._rows, self._rows.table
         one, other, vertex = candidate.one, candidate.other, candidate.vertex
         i, j = table.body[one], table.body[other]
-        ends: tuple[int, ...] = (candidate.other_vertex,)
-        if candidate.edge >= 0:
-            ends = rows.ends_of(other, candidate.edge)
-        if len(set(ends)) == 1:  # a point is an edge from its vertex to itself
-            ends = ends[:1]
+        if len(ends) == 1:
             touch = of_two_vertices(i, vertex, j, ends[0])
         else:
             touch = Incidence(i, vertex, j, candidate.edge, -1)

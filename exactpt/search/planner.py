@@ -100,7 +100,10 @@ class Planner:
 
     def _first(self, body: Body) -> Contact | None:
         scene = self._scene
-        rows = self._spare.pop() if self._spare else self._rows.copy()  # threads share a planner
+        try:
+            rows = self._spare.pop()  # another thread may have taken the last one
+        except IndexError:
+            rows = self._rows.copy()
         planned = scene.going_on((*scene.bodies, body), scene.exact_start)
         with rows.with_body(body):
             pairs = PairsWithLast(rows, self._boxes)

@@ -12,7 +12,7 @@ A body that turns at a constant rate has as many pieces as one asks for. It gets
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from typing import TYPE_CHECKING, Final, NamedTuple, final
@@ -25,7 +25,7 @@ from exactpt.motion.motions import Translation
 from exactpt.motion.normalization import Normalization
 from exactpt.pair.straight import Span
 from exactpt.scene.scene import Scene
-from exactpt.search.body_rows import BodyRows, Row, frame_of
+from exactpt.search.body_rows import BodyRows, MotionNumbers, Row, frame_of
 from exactpt.search.units import PLAIN, are_plain_places, are_plain_times, units_of
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class Rows:
         self._extra = extra
         self._waiting: dict[int, BodyRows] = {}
         self._paths: dict[int, MovingPoint] = {}
-        self._together: dict[Hashable, int] = {}
+        self._numbers = MotionNumbers()
 
     def is_exact(self, row: int) -> bool:
         """Return True if doubles have a row of the kind `STRAIGHT` exactly."""
@@ -153,23 +153,25 @@ class Rows:
         other = Rows(self.bodies, start, end, extra, self.units)
         other.table, other.spans = self.table.copy(), self.spans.copy()
         other.has_radius, other.are_straight = self.has_radius, self.are_straight
-        other._together = self._together
+        other._numbers = self._numbers
         for row, reader in self._waiting.items():
-            other._waiting[row] = reader.adding_to(other.table)
+            radius = other.reach(self.bodies[self.table.body[row]].exact_radius)
+            other._waiting[row] = reader.adding_to(other.table, radius)
             other.spans[row] = max(start, self.spans[row][0]), end
             other.table.start[row] = max(other.span.low, self.table.start[row])
         return other
 
     @contextmanager
     def with_body(self, body: Body) -> Iterator[None]:
-        """Have the rows of one more body, for a while."""
+        """Have the rows of one more body, for a while. No row of the others may wait."""
+        assert not self._waiting  # noqa: S101 - their pieces would be cut off with the body
         before, mark, first = self.bodies, self.table.mark(), len(self.spans)
         has_radius, are_straight = self.has_radius, self.are_straight
         number = len(before)
         self.bodies = (*before, body)
         try:
             if not (self.units.is_identity and self._add_doubles(number, body)):
-                self._add_rounded(number, body)
+                self._add_rounded(number, body, None)
             yield
         finally:
             self.bodies = before
@@ -194,14 +196,14 @@ class Rows:
                 check_budget()
             if not (self.units.is_identity and self._add_doubles(number, body)):
                 check_budget()
-                self._add_rounded(number, body)
+                self._add_rounded(number, body, self._numbers)
                 is_exact = False
         return is_exact
 
-    def _add_rounded(self, number: int, body: Body) -> None:
+    def _add_rounded(self, number: int, body: Body, numbers: MotionNumbers | None) -> None:
         """Add a body in any motion, or a row that waits for its pieces."""
         radius = self.reach(body.exact_radius)
-        reader = BodyRows(self.table, self.units, number, body, radius, self._together)
+        reader = BodyRows(self.table, self.units, number, body, radius, numbers)
         waiting = reader.waiting(self.span)
         if waiting is None:
             self._add_pieces(reader, self.span.start, self.span.end)
@@ -230,30 +232,34 @@ class Rows:
             self._add_exact(number, outline, (x, y), reach, edges)
         return True
 
-    def make_pieces(self, row: int, until: float, most: int) -> float:
-        """Add the next pieces of a row that is `WAITING`, as far as they begin before a double.
+    def make_pieces(self, row: int, since: float, until: float, most: int) -> float:
+        """Add the next pieces of a row that is `WAITING`, as far as they are needed.
 
         The row lasts from then on.
 
         Args:
             row: the row.
-            until: the double.
+            since: a double: nothing touches the row before it.
+            until: a double: pieces that begin after it are not needed now.
             most: the maximum number of pieces.
 
         Returns:
-            A time up to which there are pieces now; infinite if the row waits no more.
+            A time up to which there are pieces; infinite if these are all that are needed.
         """
         start, end = self.spans[row]
+        if math.isfinite(since):
+            start = max(start, min(end, self.units.exact_time(since)))
         last = min(end, self.units.exact_time(until)) if math.isfinite(until) else end
         made = self._add_pieces(self._waiting[row], start, last, most)
+        low = self.units.time(made)[0] if made < end else math.inf
         self.spans[row] = made, end
-        self.table.start[row] = self.units.time(made)[0] if made < end else math.inf
-        return self.table.start[row]
+        self.table.start[row] = low
+        return low if made < last else math.inf
 
     def make_all_pieces(self) -> None:
         """Add the pieces of all rows that are `WAITING`."""
         for row in self._waiting:
-            while self.make_pieces(row, math.inf, OFTEN) < math.inf:
+            while self.make_pieces(row, -math.inf, math.inf, OFTEN) < math.inf:
                 check_budget()
         self._waiting = {}
 
@@ -365,6 +371,9 @@ def rows_of_scene(scene: Scene, extra: QQ = NOTHING) -> Rows:
     Args:
         scene: the scene.
         extra: what is added to the radius of each body.
+
+    Returns:
+        The rows. Other threads may have the same ones: who changes them changes a copy.
     """
     start, end = scene.exact_start, scene.exact_end
     kept = scene.kept_rows

@@ -31,6 +31,7 @@ from exactpt.filters.rows import (
     COEFFICIENTS,
     FRAME,
     GENERAL,
+    LINE,
     OWN,
     OWN_Y,
     PATH_Y,
@@ -95,16 +96,23 @@ class Pairs:
     Attributes:
         one, two: the rows of each pair.
         enter, leave: bounds of the times at which they may touch.
-        waiting: rows of the kind `WAITING` that others may touch: with their pieces, pairs are to
-            be found anew.
+        waiting: for each row of the kind `WAITING` that others may touch, from when to when. With
+            its pieces, pairs are to be found anew.
     """
 
     def __init__(self) -> None:
-        self.waiting: set[int] = set()
+        self.waiting: dict[int, tuple[float, float]] = {}
         self.one = vec[i64]()
         self.two = vec[i64]()
         self.enter = vec[float]()
         self.leave = vec[float]()
+
+    def _need(self, row: int, enter: float, leave: float) -> None:
+        """Note that the pieces of a row are needed in [enter, leave]."""
+        known = self.waiting.get(row)
+        if known is not None:
+            enter, leave = min(enter, known[0]), max(leave, known[1])
+        self.waiting[row] = enter, leave
 
     def count(self) -> int:
         """Return the number of pairs."""
@@ -114,14 +122,14 @@ class Pairs:
         """Add two rows, or a row with itself, unless they certainly do not touch in [low, high]."""
         enter = max(low, table.start[one], table.start[two])
         leave = min(high, table.end[one], table.end[two])
-        if are_straight(table, one, two):
+        if is_on_line(table, one) and is_on_line(table, two):
             enter, leave = straight.meeting(table, one, two, enter, leave)
         if not enter <= leave:
             return
         if table.kind[one] == WAITING:
-            self.waiting.add(int(one))
+            self._need(int(one), enter, leave)
         if table.kind[two] == WAITING:
-            self.waiting.add(int(two))
+            self._need(int(two), enter, leave)
         self.one = append(self.one, one)
         self.two = append(self.two, two)
         self.enter = append(self.enter, enter)
@@ -135,6 +143,12 @@ class Pairs:
             found.append((int(self.one[k]), int(self.two[k])))
             k += 1
         return found
+
+
+def is_on_line(table: Table, row: i64) -> bool:
+    """Return True if a row, or the box of one that waits, moves straight."""
+    kind = table.kind[row]
+    return kind == STRAIGHT or (kind == WAITING and table.terms[row] == LINE)
 
 
 def are_straight(table: Table, one: i64, two: i64) -> bool:

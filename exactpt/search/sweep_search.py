@@ -49,7 +49,7 @@ SHORTEST: Final = 2.0**-40
 """Part of the time span below which no slab is cut."""
 SHORT: Final = 256.0
 """Number of first slabs in the time span, if a body turns, curves or deforms."""
-PIECES: Final = 64
+PIECES: Final = 8
 """Number of pieces that a body gets at a time: a slab is no longer than these last."""
 MANY: Final = 1 << 10
 """Number of pairs of features that are compared between two looks at the budget."""
@@ -200,11 +200,15 @@ class Slabs:
                     break
                 length /= 4.0
                 high, pairs = sooner, fewer
+            pieces = PIECES
             while pairs.waiting:
-                waiting = sorted(pairs.waiting)
-                made = min(self._rows.make_pieces(row, high, PIECES) for row in waiting)
-                if low < made < high:
-                    high, length = made, made - low
+                made = math.inf
+                for row, (enter, leave) in sorted(pairs.waiting.items()):
+                    made = min(made, self._rows.make_pieces(row, enter, min(leave, high), pieces))
+                pieces *= 2  # many are shorter than the distance of two doubles
+                if made < high:
+                    high = max(made, math.nextafter(low, math.inf))
+                    length = high - low
                 pairs = self._pairs.during(low, high)
             is_last = high >= end
             yield Slab(low, high, pairs)
@@ -271,6 +275,8 @@ class Sweep:
         Raises:
             BudgetExceeded: if the deadline, or the time or memory of this thread, is exceeded.
         """
+        if self._low is not None:
+            raise RuntimeError("a search runs once: what it has passed is not kept")
         span, best = self._rows.span, self._decider.best
         self._low = span.low
         for slab in chain([self._first], self._slabs):

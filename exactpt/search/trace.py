@@ -55,12 +55,12 @@ class Trace:
         known = f"; a contact is certain by {self._time(limit)}" if limit < end else ""
         self._write(f"  filters leave {len(candidates)} candidates{known}")
 
-    def candidate(self, candidate: Candidate, begin: Begin | None) -> None:
+    def candidate(self, candidate: Candidate, begins: Sequence[Begin]) -> None:
         """Write about a candidate that has been decided.
 
         Args:
             candidate: the candidate.
-            begin: when it begins; None if it does not.
+            begins: when its incidences begin; none if it does not touch.
         """
         one, other = candidate.one, candidate.other
         feature = f"edge {candidate.edge}"
@@ -71,7 +71,7 @@ class Trace:
             f"  vertex {candidate.vertex} of {self._name(one)}, {feature} of {self._name(other)}: "
             f"boxes meet in [{self._time(enter)}, {self._time(leave)}], "
             f"the filter says [{self._time(candidate.low)}, {self._time(candidate.high)}], "
-            f"exact arithmetic: {_said(None if begin is None else begin.time)}"
+            f"exact arithmetic: {', '.join(_said(begin.time) for begin in begins) or _said(None)}"
         )
 
     def in_doubles(self, time: QQ | None, incidences: Sequence[Incidence]) -> None:

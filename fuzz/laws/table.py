@@ -66,6 +66,7 @@ from fuzz.laws.runs import (
     stops_change_nothing,
 )
 from fuzz.laws.space import paths_are_shortest, places_are_as_defined
+from fuzz.laws.spins import spins_are_their_pieces
 from fuzz.laws.tilings import (
     arrays_are_tiled_as_bodies,
     at_once_is_one_by_one,
@@ -358,6 +359,7 @@ LAWS: Final[dict[str, Law]] = {
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward", "planks"),
         most=80,
     ),
+    "first contact/spins": Law(spins_are_their_pieces, ("spinning", "tiny/rings"), most=40),
     "contacts/choices": Law(
         chosen_contacts_are_part_of_all,
         ("tiny/crowded", "tiny/fractions", "tiny/touching", "tiny/crowded+awkward"),

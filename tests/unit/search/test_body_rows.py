@@ -239,7 +239,7 @@ def test_pieces_are_made_up_to_a_time_and_the_row_waits_from_then_on():
     body = Body("b", TRIANGLE, Spin(2, (THIRD, 1), error="1/50"))
     rows = rows_of([body], QQ(0), QQ(4))
 
-    rows.make_pieces(0, 1.0, 1000)
+    rows.make_pieces(0, 0.0, 1.0, 1000)
 
     made = rows.spans[1:]
     assert [end for _, end in made[:-1]] == [start for start, _ in made[1:]]
@@ -247,7 +247,7 @@ def test_pieces_are_made_up_to_a_time_and_the_row_waits_from_then_on():
     assert made[-2][1] < 1 <= made[-1][1]
     assert rows.spans[0] == (made[-1][1], 4)
     assert of_double(rows.table.start[0]) <= made[-1][1]
-    rows.make_pieces(0, inf, 1000)
+    rows.make_pieces(0, 0.0, inf, 1000)
     assert rows.spans[-1][1] == 4
     assert rows.table.start[0] == inf
 

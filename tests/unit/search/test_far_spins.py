@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, Rigid, Scene, Spin, Translation, first_contact
+from exactpt import Body, Rigid, Scene, Spin, Translation, first_contact, first_within
 from exactpt.filters.rows import TURNING, WAITING
 from exactpt.motion.motions import REST
 from exactpt.search.query import Selection
@@ -105,3 +105,18 @@ def test_contacts_are_those_of_bodies_with_all_their_pieces():
         assert kinds[TURNING] <= all_kinds[TURNING]
         found.append(contact)
     assert len({contact.time for contact in found if contact}) > 1
+
+
+@pytest.mark.parametrize(("corner", "distance"), [((-2.5, -2.5), 2), ((-1, -1), 0.5)])
+def test_bug_a_distance_was_forgotten_by_rows_that_wait(corner, distance):
+    """Pieces of a spin that are made during a search are as near as those of `pieces_during`."""
+    x, y = corner
+    blade = Body("blade", [(0, 0), (2, 0), (2, 0.5), (0, 0.5)], Spin(1, error="1/1000"))
+    wall = Body("wall", [corner, (x - 1.5, y - 2.5), (x - 2.5, y - 1.5)])
+    in_pieces = blade.with_motion(blade.motion.pieces_during(0, 7))
+    expected = first_within(Scene([in_pieces, wall], (0, 7)), distance=distance)
+
+    approach = first_within(Scene([blade, wall], (0, 7)), distance=distance)
+
+    assert approach == expected
+    assert approach is not None

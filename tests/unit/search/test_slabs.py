@@ -56,7 +56,7 @@ def test_rows_of_a_slab_do_not_wait():
     rows = rows_in(Scene([spinning("a", 0), spinning("b", 5, -1), spinning("far", 99)], (0, 9)))
 
     for slab in Slabs(rows, AllPairs(rows)):
-        assert slab.pairs.waiting == set()
+        assert slab.pairs.waiting == {}
         for pair in slab.pairs.rows():
             assert [rows.table.kind[k] for k in pair].count(WAITING) == 0
             for k in pair:
@@ -74,7 +74,7 @@ def test_named_pairs_of_rows_that_wait_get_their_pieces():
     rows = rows_in(scene)
 
     for slab in Slabs(rows, NamedPairs(rows, [(0, 1)])):
-        assert slab.pairs.waiting == set()
+        assert slab.pairs.waiting == {}
 
     assert list(rows.table.body).count(2) == 1
     between = first_contact(scene, between=[("a", "b")])
