@@ -38,6 +38,7 @@ from exactpt.filters.rows import (
     STRAIGHT,
     WAITING,
     Table,
+    append_box,
 )
 from exactpt.filters.separation import are_separated
 from exactpt.filters.starts import are_disjoint
@@ -262,8 +263,39 @@ def pairs_during(
         with_themselves: whether rows that may touch themselves are pairs with themselves.
     """
     active, boxes = during(table, low, high, drift)
-    met = strips(boxes, 0)
     pairs = Pairs()
+    if has_several_pieces(table, active):
+        add_of_bodies(pairs, table, active, boxes, ignored, low, high)
+    else:
+        add_of_rows(pairs, table, active, boxes, ignored, low, high)
+    k: i64 = 0
+    while with_themselves and k < len(active):
+        add_itself(pairs, table, active[k], low, high)
+        k += 1
+    return pairs
+
+
+def has_several_pieces(table: Table, active: vec[i64]) -> bool:
+    """Return True if two rows, one after the other, are of one body."""
+    k: i64 = 1
+    while k < len(active):
+        if table.body[active[k]] == table.body[active[k - 1]]:
+            return True
+        k += 1
+    return False
+
+
+def add_of_rows(
+    pairs: Pairs,
+    table: Table,
+    active: vec[i64],
+    boxes: vec[float],
+    ignored: Ignored,
+    low: float,
+    high: float,
+) -> None:
+    """Add the pairs of rows of which the boxes meet."""
+    met = strips(boxes, 0)
     k: i64 = 0
     while k < len(met):
         one, two = active[met[k]], active[met[k + 1]]
@@ -273,11 +305,124 @@ def pairs_during(
         i, j = table.body[one], table.body[two]
         if i != j and not ignored.has(i, j):
             pairs.add(table, one, two, low, high)
-    k = 0
-    while with_themselves and k < len(active):
-        add_itself(pairs, table, active[k], low, high)
-        k += 1
-    return pairs
+
+
+def add_of_bodies(
+    pairs: Pairs,
+    table: Table,
+    active: vec[i64],
+    boxes: vec[float],
+    ignored: Ignored,
+    low: float,
+    high: float,
+) -> None:
+    """Add the pairs of rows of which the boxes meet, where bodies have many pieces.
+
+    The boxes of bodies are compared first: pieces of one body, of which most boxes meet, are not
+    compared at all, and those of two bodies only if they last at one time.
+    """
+    groups = Groups(table, active)
+    met = strips(groups.around(boxes), 0)
+    k: i64 = 0
+    while k < len(met):
+        p, q = met[k], met[k + 1]
+        k += 2
+        check_budget()
+        if not ignored.has(groups.body[p], groups.body[q]):
+            groups.add_pairs(pairs, p, q, boxes, low, high)
+
+
+class Groups:
+    """Rows by their bodies, those of a body in the order of time.
+
+    Args:
+        table: the rows.
+        active: the numbers of some rows.
+
+    Attributes:
+        body: the body of each group.
+    """
+
+    def __init__(self, table: Table, active: vec[i64]) -> None:
+        self._table = table
+        self._active = active
+        starts = vec[float]()
+        k: i64 = 0
+        while k < len(active):
+            starts = append(starts, table.start[active[k]])
+            k += 1
+        members: dict[int, list[int]] = {}
+        order = sorted_by(starts)
+        k = 0
+        while k < len(order):
+            members.setdefault(int(table.body[active[order[k]]]), []).append(int(order[k]))
+            k += 1
+        self.body = vec[i64]()
+        self._first = vec[i64]()
+        self._members = vec[i64]()  # numbers in `active`
+        for body, some in members.items():
+            self.body = append(self.body, i64(body))
+            self._first = append(self._first, i64(len(self._members)))
+            for member in some:
+                self._members = append(self._members, i64(member))
+        self._first = append(self._first, i64(len(self._members)))
+
+    def around(self, boxes: vec[float]) -> vec[float]:
+        """Return a box of each group, given those of the active rows."""
+        found = vec[float]()
+        p: i64 = 0
+        while p < len(self.body):
+            left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+            m = self._first[p]
+            while m < self._first[p + 1]:
+                at = BOX * self._members[m]
+                left, right = min(left, boxes[at]), max(right, boxes[at + 1])
+                bottom, top = min(bottom, boxes[at + 2]), max(top, boxes[at + 3])
+                m += 1
+            found = append_box(found, left, right, bottom, top)
+            p += 1
+        return found
+
+    def add_pairs(
+        self, pairs: Pairs, p: i64, q: i64, boxes: vec[float], low: float, high: float
+    ) -> None:
+        """Add the pairs of rows of two groups that last at one time, by their doubles.
+
+        Args:
+            pairs: takes them.
+            p: a group.
+            q: another group.
+            boxes: those of the active rows, which have to meet; none if they do not matter.
+            low: the start.
+            high: the end.
+        """
+        table, members = self._table, self._members
+        first = self._first[q]  # of the rows that have not ended
+        k = self._first[p]
+        while k < self._first[p + 1]:
+            one = self._active[members[k]]
+            while (
+                first < self._first[q + 1]
+                and table.end[self._active[members[first]]] < table.start[one]
+            ):
+                first += 1
+            m = first
+            while m < self._first[q + 1]:
+                two = self._active[members[m]]
+                if table.start[two] > table.end[one]:
+                    break
+                if len(boxes) == 0 or boxes_meet(boxes, members[k], members[m]):
+                    pairs.add(table, one, two, low, high)
+                m += 1
+            k += 1
+
+
+def boxes_meet(boxes: vec[float], k: i64, m: i64) -> bool:
+    """Return True if two boxes have a point in common."""
+    a, b = BOX * k, BOX * m
+    if boxes[a] > boxes[b + 1] or boxes[b] > boxes[a + 1]:
+        return False
+    return boxes[a + 2] <= boxes[b + 3] and boxes[b + 2] <= boxes[a + 3]
 
 
 def add_itself(pairs: Pairs, table: Table, row: i64, low: float, high: float) -> None:
@@ -290,50 +435,13 @@ def pairs_of_bodies(
     table: Table, bodies: Sequence[tuple[int, int]], low: float, high: float
 ) -> Pairs:
     """Return the pairs of rows of given pairs of different bodies that may touch in [low, high]."""
-    rows = rows_of_bodies(table)
-    pairs = Pairs()
+    groups = Groups(table, vec[i64](range(len(table.body))))
+    number = {int(body): p for p, body in enumerate(groups.body)}
+    pairs, no_boxes = Pairs(), vec[float]()
     for i, j in bodies:
         check_budget()
-        add_pieces(pairs, table, rows[i], rows[j], low, high)
+        groups.add_pairs(pairs, i64(number[i]), i64(number[j]), no_boxes, low, high)
     return pairs
-
-
-def rows_of_bodies(table: Table) -> list[list[int]]:
-    """Return the rows of each body, in the order of time."""
-    rows: list[list[int]] = []
-    order = sorted_by(table.start)
-    k: i64 = 0
-    while k < len(order):
-        row = order[k]
-        while len(rows) <= table.body[row]:
-            rows.append([])
-        rows[table.body[row]].append(int(row))
-        k += 1
-    return rows
-
-
-def add_pieces(
-    pairs: Pairs, table: Table, ones: list[int], twos: list[int], low: float, high: float
-) -> None:
-    """Add the pairs of rows of two bodies that last at one time, by their doubles.
-
-    Args:
-        pairs: takes them.
-        table: the rows.
-        ones: the rows of a body, in the order of time.
-        twos: those of another body.
-        low: the start.
-        high: the end.
-    """
-    first = 0  # of the rows that have not ended
-    for k in ones:
-        one = i64(k)
-        while first < len(twos) and table.end[i64(twos[first])] < table.start[one]:
-            first += 1
-        m = first
-        while m < len(twos) and table.start[i64(twos[m])] <= table.end[one]:
-            pairs.add(table, one, i64(twos[m]), low, high)
-            m += 1
 
 
 def boxes_during(table: Table, low: float, high: float) -> vec[float]:
