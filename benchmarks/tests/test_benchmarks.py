@@ -23,6 +23,7 @@ from benchmarks import (
     kernel,
     large,
     living,
+    motions,
     points,
     proofs,
     scaling,
@@ -40,6 +41,7 @@ from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
 from benchmarks.methods.cpp import has_compiler
 from benchmarks.methods.method import Method
+from benchmarks.motion_scenes import BESIDE, PLANS, SCENES, measured
 from benchmarks.number_types import ARITHMETICS
 from benchmarks.planted import FAMILIES as PLANTED
 from benchmarks.planted import Planted
@@ -408,6 +410,56 @@ def test_a_wrong_time_beside_the_floor_is_an_error(results, monkeypatch):
     monkeypatch.setattr(doubles, "_prepare_arrays", lambda _: lambda: 1.0)
     with pytest.raises(AuditError, match="two triangles: from arrays"):
         doubles.run(results.output, doubles.Sizes(3, {}, 1), 0)
+
+
+@pytest.fixture
+def old_is_this_one(monkeypatch):
+    """This version in the place of the old one: whatever is built, the results are the same."""
+    monkeypatch.setattr(motions, "is_built", lambda: True)
+    monkeypatch.setattr(motions, "SITE", motions.HERE)
+
+
+TINY_MOTIONS = motions.Sizes(
+    dict.fromkeys([*SCENES, PLANS], (4,)) | {"combs": (24,)}, crowd=4, turns=2
+)
+
+
+def test_motions_are_asked_of_both_versions(results, old_is_this_one):
+    motions.run(results.output, TINY_MOTIONS, 0)
+    rows = results.rows("motions")
+    assert [row["scene"] for row in rows] == [*SCENES, PLANS]
+    assert {row["scene"] for row in rows if row["aim"]} == set(motions.AIMS)
+    contacts = {row["scene"]: row["contact"] for row in rows}
+    assert contacts["combs"] == "14.0"  # the teeth are 2 apart, and 1/7 is the speed
+    assert contacts["turning stars, apart"] == ""
+    assert all(float(row["old ms"]) > 0 and float(row["new ms"]) > 0 for row in rows)
+    beside = results.rows("motions-beside")
+    assert [(row["beside"], row["bodies"]) for row in beside] == [
+        (what, "4" if what == "nothing" else "5") for what in BESIDE
+    ]
+    assert beside[0]["new times alone"] == "1.0"
+
+
+def test_motions_without_the_old_version_say_so(results, monkeypatch):
+    monkeypatch.setattr(motions, "is_built", lambda: False)
+    motions.run(results.output, motions.Sizes({"combs": (24,)}, crowd=4, turns=1), 0)
+    assert results.said[0] == "skipped: version 0.2 is not built (make old-engine)"
+    assert [row["old ms"] for row in results.rows("motions")] == [""]
+    assert len(results.rows("motions-beside")) == len(BESIDE)
+
+
+def test_a_scene_in_motion_is_the_same_for_a_size_and_a_seed():
+    first, second, other = (measured("discs", 16, seed) for seed in (0, 0, 1))
+    assert first.found == second.found != other.found
+    assert first.bodies == first.vertices == 16
+
+
+def test_versions_that_disagree_about_a_motion_are_an_error(results, old_is_this_one, monkeypatch):
+    found = iter([["1"], ["2"]])
+    asked = measured("combs", 24, 0)
+    monkeypatch.setattr(motions._Engine, "ask", lambda *_: asked._replace(found=next(found)))
+    with pytest.raises(AuditError, match="disagree about combs, 24"):
+        motions.run(results.output, motions.Sizes({"combs": (24,)}, crowd=4, turns=1), 0)
 
 
 def test_auto_is_beside_all_other_methods(results, alone):
