@@ -19,6 +19,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
     "exponents": "how run time grows, on 52 families of questions at three sizes",
     "motions": "first contacts in any motion by turns with version 0.2, with what was aimed at",
+    "counts": "slabs, pairs, comparisons, exact decisions: of 30 families of scenes at five sizes",
     "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",

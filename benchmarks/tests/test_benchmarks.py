@@ -16,6 +16,7 @@ from benchmarks import (
     batch,
     changes,
     cliffs,
+    counts,
     crowds,
     doubles,
     exponents,
@@ -460,6 +461,23 @@ def test_versions_that_disagree_about_a_motion_are_an_error(results, old_is_this
     monkeypatch.setattr(motions._Engine, "ask", lambda *_: asked._replace(found=next(found)))
     with pytest.raises(AuditError, match="disagree about combs, 24"):
         motions.run(results.output, motions.Sizes({"combs": (24,)}, crowd=4, turns=1), 0)
+
+
+def test_counts_of_scenes_beside_each_other(results):
+    counts.run(results.output, counts.Sizes(("combs", "sliding_capsules"), (1, 4)), 0)
+    rows = results.rows("counts")
+    assert [(row["family"], row["scenes"]) for row in rows] == [
+        ("combs", "1"), ("combs", "4"), ("sliding_capsules", "1"), ("sliding_capsules", "4"),
+    ]  # fmt: skip
+    assert [row["bodies"] for row in rows[:2]] == ["2", "8"]
+    assert [row["pairs"] for row in rows[:2]] == ["1", "4"]  # in one slab, none of two scenes
+    assert 0 < int(rows[0]["compared"]) < int(rows[1]["compared"])
+
+
+def test_a_contact_that_no_scene_alone_has_is_an_error(results, monkeypatch):
+    monkeypatch.setattr(counts, "beside", lambda _: meeting())
+    with pytest.raises(AuditError, match="the first of 1 scenes is 3, not None"):
+        counts.run(results.output, counts.Sizes(("combs",), (1,)), 0)
 
 
 def test_auto_is_beside_all_other_methods(results, alone):
