@@ -52,6 +52,8 @@ turning bodies takes 8 times as long, with 2^-4 a hundred times.
 SHORTEST: Final = 2.0**-14
 """Length at which windows are halved no more, relative to the span."""
 MOST_SHARPENINGS: Final[i64] = 12
+EDGES_A_LOOK: Final[i64] = 64
+"""Number of edges of a window between two looks at the clock."""
 WINDOWS_A_LOOK: Final[i64] = 8
 """Number of windows between two looks at the clock."""
 
@@ -206,6 +208,8 @@ class Filter:
         e: i64 = -1
         while e + 1 < edges:
             e += 1
+            if e % EDGES_A_LOOK == EDGES_A_LOOK - 1 and self._look is not None:
+                self._look()
             i, j = begins[first + e], ends[first + e]
             if i == j and distance != 0.0:
                 continue
@@ -340,39 +344,67 @@ class Filter:
             is_straight = kind[a] == STRAIGHT and kind[b] == STRAIGHT
             is_shrinking = a == b and found.edge[c] == NO_EDGE
             if not (is_straight or is_shrinking or self.exact_only):
-                self._choose(a, b, after)
-                low, high = self._sharpened(found, c, sharper)
+                excerpt = self._excerpt(found.features(c))
+                low, high = excerpt.sharpened(low, high, until, after, sharper)
             if not low > until:
                 sharper.add(found.features(c), low, high, until)
             k += 1
         return sharper
 
-    def _sharpened(self, found: Candidates, c: i64, limited: Candidates) -> tuple[float, float]:
-        """Return better bounds of the time from which on the features of a candidate may touch.
+    def _excerpt(self, features: Features) -> "Filter":
+        """Return a filter of the two features alone: windows of large pieces take long to fill.
+
+        Its piece 0 has the vertex, as its vertex 0. The other feature is edge 0 of piece 1, or its
+        vertex 0; of a piece and itself it is edge 0 of piece 0.
+        """
+        table, excerpt = self.table, Table()
+        ends = vec[i64]([features.other_vertex])
+        if features.edge != NO_EDGE:
+            at = table.edge[features.other] + features.edge
+            ends = vec[i64]([table.begins[at], table.ends[at]])
+        if features.one == features.other:
+            excerpt.add_edges([(1, 2)])
+            vertices = vec[i64]([features.vertex, ends[0], ends[1]])
+            excerpt.add_excerpt(table, features.one, vertices, 1)
+        else:
+            excerpt.add_excerpt(table, features.one, vec[i64]([features.vertex]), 0)
+            edges: i64 = 0 if features.edge == NO_EDGE else 1
+            if edges == 1:
+                excerpt.add_edges([(0, 0 if ends[0] == ends[1] else 1)])
+            excerpt.add_excerpt(table, features.other, ends, edges)
+        return Filter(excerpt, look=self._look)
+
+    def sharpened(
+        self, low: float, high: float, until: float, after: float, limited: Candidates
+    ) -> tuple[float, float]:
+        """Return better bounds of the time from which on the features of an excerpt may touch.
 
         If nothing is in [low, high], the rest of the window follows.
 
         Args:
-            found: candidates.
-            c: the number of the candidate among them.
+            low: a bound.
+            high: the other bound.
+            until: the end of the window.
+            after: a certain contact counts after this time.
             limited: its limit is lowered if the two certainly touch.
 
         Returns:
             low and high; both are infinite if the two do not touch up to ``until``.
         """
-        low, high, until = found.low[c], found.high[c], found.until[c]
-        a, b = found.one[c], found.other[c]
+        b: i64 = len(self.table.body) - 1
+        self._choose(0, b, after)
+        is_of_vertices = self.table.edges[b] == 0
         turns: i64 = 0
         while turns < MOST_SHARPENINGS and low <= limited.limit:
             turns += 1
             self._step()
-            self._fill(a, b, low, high)
+            self._fill(0, b, low, high)
             one = Candidates(limited.limit)
-            q = self.p if a == b else self.q
-            if found.edge[c] == NO_EDGE:
-                self._add_vertex(self.p, found.vertex[c], q, found.other_vertex[c], one)
+            q = self.p if b == 0 else self.q
+            if is_of_vertices:
+                self._add_vertex(self.p, 0, q, 0, one)
             else:
-                self._add_edge(self.p, found.vertex[c], q, found.edge[c], one)
+                self._add_edge(self.p, 0, q, 0, one)
             limited.limit = one.limit
             n = len(one.low)
             if n == 0:  # nothing up to high, or up to the limit

@@ -326,6 +326,51 @@ class Table:
         self.radius = append(self.radius, piece.radius)
         self.deforms = append(self.deforms, i64(1) if piece.deforms else i64(0))
 
+    def add_excerpt(self, source: Table, k: i64, vertices: vec[i64], edges: i64) -> None:
+        """Add a piece of another table with some of its vertices, after its edges.
+
+        Args:
+            source: the other table.
+            k: the number of the piece.
+            vertices: the numbers of the vertices.
+            edges: how many of the last edges are those of the piece.
+        """
+        kind = source.kind[k]
+        place: i64 = len(self.xs)
+        if kind == OWN:
+            place = i64(len(self.own)) // COEFFICIENTS
+        elif kind == GENERAL:
+            place = len(self.general)
+        n: i64 = 0
+        while n < len(vertices):
+            v = vertices[n]
+            if kind == OWN:
+                self.own = extended(self.own, source.own, source.place[k] + v, COEFFICIENTS)
+            elif kind == GENERAL:
+                width = POLYNOMIALS * source.terms[k]
+                at = source.place[k] + width * v
+                self.general = appended(self.general, source.general, at, width)
+            else:
+                self.xs = append(self.xs, source.xs[source.place[k] + v])
+                self.ys = append(self.ys, source.ys[source.place[k] + v])
+            n += 1
+        self.body, self.kind = append(self.body, source.body[k]), append(self.kind, kind)
+        self.start = append(self.start, source.start[k])
+        self.end = append(self.end, source.end[k])
+        self.origin = append(self.origin, source.origin[k])
+        self.terms = append(self.terms, source.terms[k])
+        self.together = append(self.together, source.together[k])
+        self.place, self.size = append(self.place, place), append(self.size, n)
+        self.edge = append(self.edge, i64(len(self.begins)) - edges)
+        self.edges = append(self.edges, edges)
+        self.frames = extended(self.frames, source.frames, k, FRAME)
+        self.boxes = extended(self.boxes, source.boxes, k, BOX)
+        self.place_error = append(self.place_error, source.place_error[k])
+        self.path_error = append(self.path_error, source.path_error[k])
+        self.speed_error = append(self.speed_error, source.speed_error[k])
+        self.radius = append(self.radius, source.radius[k])
+        self.deforms = append(self.deforms, source.deforms[k])
+
     def add_straight(
         self,
         body: int,
@@ -373,6 +418,20 @@ class Table:
         self.speed_error = append(self.speed_error, 0.0)
         self.radius = append(self.radius, radius)
         self.deforms = append(self.deforms, 0)
+
+
+def extended(values: vec[float], source: vec[float], k: i64, width: i64) -> vec[float]:
+    """Return a vector with one more group of numbers: group k of another vector."""
+    return appended(values, source, k * width, width)
+
+
+def appended(values: vec[float], source: vec[float], at: i64, count: i64) -> vec[float]:
+    """Return a vector with more numbers, those of another vector from a place on."""
+    n: i64 = 0
+    while n < count:
+        values = append(values, source[at + n])
+        n += 1
+    return values
 
 
 def cut_floats(values: vec[float], n: i64) -> vec[float]:

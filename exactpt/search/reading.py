@@ -26,7 +26,15 @@ from exactpt.motion.normalization import Normalization
 from exactpt.pair.straight import Span
 from exactpt.scene.scene import Scene
 from exactpt.search.body_rows import BodyRows, MotionNumbers, Row, frame_of
-from exactpt.search.units import PLAIN, are_plain_places, are_plain_times, units_of
+from exactpt.search.units import (
+    FEW_BITS,
+    LARGEST_EXPONENT,
+    PLAIN,
+    are_plain_places,
+    are_plain_times,
+    is_long_or_short,
+    units_of,
+)
 
 if TYPE_CHECKING:
     from exactpt.scene.body_arrays import BodyArrays
@@ -356,11 +364,14 @@ def rows_of(bodies: Sequence[Body], start: QQ, end: QQ, extra: QQ = NOTHING) -> 
         extra: what is added to the radius of each body.
     """
     rows = Rows(bodies, start, end, extra)
-    if are_plain_times(rows.span.low, rows.span.high):
+    low, high, longest = rows.span.low, rows.span.high, LARGEST_EXPONENT
+    if are_plain_times(low, high):
         is_exact = rows.add_all()
-        if is_exact or are_plain_places(rows.table, rows.span.low):
+        if len(rows.table.general) and is_long_or_short(low, high):
+            longest = FEW_BITS
+        elif is_exact or are_plain_places(rows.table, low):
             return rows
-    rows = Rows(bodies, start, end, extra, units_of(bodies, start, end))
+    rows = Rows(bodies, start, end, extra, units_of(bodies, start, end, longest))
     rows.add_all()
     return rows
 

@@ -24,6 +24,8 @@ from exactpt.motion.normalization import Normalization, binary_exponent
 
 LARGEST_EXPONENT: Final = 64
 """Binary exponents of lengths and times that keep their units are at most of this size."""
+FEW_BITS: Final = 4
+"""The same of times, if polynomials have a high degree."""
 TINIEST: Final = 2.0**-LARGEST_EXPONENT
 ONE: Final = QQ(1)
 
@@ -31,13 +33,17 @@ PLAIN: Final = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 """The units of most scenes: those in which they are given."""
 
 
-def units_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Normalization:
+def units_of(
+    bodies: Sequence[Body], start: QQ, end: QQ, longest: int = LARGEST_EXPONENT
+) -> Normalization:
     """Return units for the rows of some bodies in a time span, from their exact places.
 
     Args:
         bodies: the bodies.
         start: the start of the span.
         end: its end.
+        longest: the binary exponents of spans that keep their unit of time are at most of this
+            size.
     """
     places = []
     for body in bodies:
@@ -46,7 +52,7 @@ def units_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Normalization:
     xs, ys = [x for x, _ in places], [y for _, y in places]
     extent = max(max(xs) - min(xs), max(ys) - min(ys)) if places else ONE
     scale = _scale(binary_exponent(extent))
-    origin, time_scale = time_units(start, end)
+    origin, time_scale = time_units(start, end, longest)
     center = _center(xs, extent), _center(ys, extent)
     return Normalization(center, (scale, scale), origin, time_scale)
 
@@ -73,16 +79,24 @@ def are_plain_times(low: float, high: float) -> bool:
     return max(abs(low), abs(high)) <= 0.5 * FAR * duration
 
 
-def time_units(start: QQ, end: QQ) -> tuple[QQ, int]:
+def is_long_or_short(low: float, high: float) -> bool:
+    """Return True if powers of a time span are of another order than the span itself.
+
+    Polynomials of a high degree have such powers.
+    """
+    return not 2.0**-FEW_BITS <= high - low <= 2.0**FEW_BITS
+
+
+def time_units(start: QQ, end: QQ, longest: int = LARGEST_EXPONENT) -> tuple[QQ, int]:
     """Return the origin of the time, and the binary exponent of its unit."""
     duration = end - start
     is_far = max(abs(start), abs(end)) > QQ(FAR) * duration
-    return (start if is_far else QQ(0)), _scale(binary_exponent(duration))
+    return (start if is_far else QQ(0)), _scale(binary_exponent(duration), longest)
 
 
-def _scale(exponent: int) -> int:
+def _scale(exponent: int, largest: int = LARGEST_EXPONENT) -> int:
     """Return the exponent of a unit: 0 unless it is needed."""
-    return 0 if abs(exponent) <= LARGEST_EXPONENT else exponent
+    return 0 if abs(exponent) <= largest else exponent
 
 
 def _center(values: Sequence[QQ], extent: QQ) -> QQ:

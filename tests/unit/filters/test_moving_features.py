@@ -6,6 +6,7 @@ from random import Random
 import pytest
 from mypy_extensions import i64
 
+from exactpt import Body, Rigid, Scene, first_contact
 from exactpt.filters import features
 from exactpt.filters.candidates import NO_EDGE, NO_VERTEX, Candidates
 from exactpt.filters.features import Filter
@@ -273,7 +274,7 @@ MISTAKES = {
     "vertices": Edit(Filter, "_collect_window", "self.distance != 0.0", "self.distance < 0.0"),
     "the end of a window": Edit(Filter, "_keep", "middle + half + off", "high"),
     "the rest of a window": Edit(
-        Filter, "_sharpened", "low, high = high, until", "return INFINITY, INFINITY"
+        Filter, "sharpened", "low, high = high, until", "return INFINITY, INFINITY"
     ),
 }
 
@@ -295,3 +296,23 @@ def is_found():
             if report.wrong:
                 return True
     return False
+
+
+def test_features_of_large_pieces_are_sharpened_by_themselves(monkeypatch):
+    """Each candidate filled the windows of all vertices: a ring in a hole took n^2 of them."""
+    filled = []
+    fill = Window.fill
+    monkeypatch.setattr(
+        Window, "fill", lambda w, table, *a: filled.append(len(table.xs)) or fill(w, table, *a)
+    )
+
+    def ring(n, radius):
+        angles = (2 * math.pi * k / n for k in range(n))
+        return [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
+
+    frame = Body("frame", ring(60, 2.0), holes=[ring(60, 1.0)])
+    wheel = Body("wheel", ring(60, 0.995), Rigid([0, 1]))
+
+    assert first_contact(Scene([frame, wheel], (0, 1))) is None
+    large = [size for size in filled if size > 3]
+    assert len(filled) > 2 * len(large)
