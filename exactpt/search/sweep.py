@@ -46,6 +46,8 @@ from exactpt.kernel.budget import check_budget
 
 BOXES_A_LOOK: Final[i64] = 512
 """Number of pairs of boxes between two looks at the budget."""
+ROWS_A_LOOK: Final[i64] = 64
+"""Number of rows of groups between two looks at the budget."""
 STARTS_A_LOOK: Final[i64] = 8
 """Number of pairs of rows that are compared at the start between two looks at the budget."""
 SAMPLE: Final[i64] = 256
@@ -327,7 +329,6 @@ def add_of_bodies(
     while k < len(met):
         p, q = met[k], met[k + 1]
         k += 2
-        check_budget()
         if not ignored.has(groups.body[p], groups.body[q]):
             groups.add_pairs(pairs, p, q, boxes, low, high)
 
@@ -346,6 +347,7 @@ class Groups:
     def __init__(self, table: Table, active: vec[i64]) -> None:
         self._table = table
         self._active = active
+        self._steps: i64 = 0
         starts = vec[float]()
         k: i64 = 0
         while k < len(active):
@@ -400,6 +402,9 @@ class Groups:
         first = self._first[q]  # of the rows that have not ended
         k = self._first[p]
         while k < self._first[p + 1]:
+            self._steps += 1
+            if self._steps % ROWS_A_LOOK == 0:
+                check_budget()
             one = self._active[members[k]]
             while (
                 first < self._first[q + 1]
