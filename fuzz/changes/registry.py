@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from random import Random
@@ -63,7 +64,10 @@ def rounded(scene: Scene, random: Random) -> Scene:
 
 
 def _nearest_double(number: str) -> str:
-    return str(Fraction(float(Fraction(number))))
+    exact = Fraction(number)
+    if abs(exact) > sys.float_info.max:
+        return number  # doubles do not have it
+    return str(Fraction(float(exact)))
 
 
 def _image_by(transformation: str) -> Change:
