@@ -512,21 +512,24 @@ class Body:
     def exact_last_breakpoint(
         self, time: AlgebraicNumber, start: QQ, *, before: bool = False
     ) -> QQ:
-        """Return the last time after a start, and not after a time, at which formulas change.
+        """Return the last time from a start to another time at which formulas change, or the start.
 
         Args:
             time: the time, at the start or later.
-            start: the start, which is returned if formulas do not change.
-            before: True for the last change before the time, False if one at it counts, too.
+            start: the start.
+            before: True for the last change before the time, False if one at it counts, too. Of
+                the start itself it is the last change before that, if there is one: a body has
+                moved before it, too.
         """
-        high = time.exact_high
-        times = [start, *self.exact_breakpoints_between(start, high)]
-        if high > start and self.exact_is_breakpoint(high):
-            times.append(high)
+        course, high = self._course, time.exact_high
+        change = high if course.is_breakpoint(high) else course.last_breakpoint_before(high)
         least = 1 if before else 0
-        while len(times) > 1 and time.compare_rational(times[-1]) < least:
-            times.pop()
-        return times[-1]
+        while change is not None and time.compare_rational(change) < least:
+            change = course.last_breakpoint_before(change)
+        if change is None:
+            return start
+        is_before_start = before and time.compare_rational(start) == 0
+        return change if is_before_start else max(change, start)
 
     def exact_piece_after(self, t: QQ) -> Piece:
         """Return the piece of the motion that is valid from a time on."""

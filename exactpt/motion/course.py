@@ -181,6 +181,18 @@ class Course:
             return self._frames
         return tuple(sorted({*self._frames, *motion.exact_breakpoints}))
 
+    def last_breakpoint_before(self, t: QQ) -> QQ | None:
+        """Return the last time before another one at which formulas change; None if never."""
+        ended = bisect_left(self._frames, t)
+        frame = self._frames[ended - 1] if ended else None
+        motion = self.motion
+        if not isinstance(motion, Piecewise):
+            return frame
+        end = motion.exact_last_breakpoint_before(t)
+        if frame is None or end is None:
+            return end if frame is None else frame
+        return max(frame, end)
+
     def is_breakpoint(self, t: QQ) -> bool:
         """Return True if the formulas of the trajectories change at a time."""
         motion = self.motion

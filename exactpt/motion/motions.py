@@ -294,6 +294,13 @@ class Piecewise(_Given):
         """
 
     @abstractmethod
+    def exact_last_breakpoint_before(self, t: QQ) -> QQ | None:
+        """Return the last time before another one at which formulas change; None if there is none.
+
+        It is found without those before it: there may be no first one.
+        """
+
+    @abstractmethod
     def exact_is_breakpoint(self, t: QQ) -> bool:
         """Return True if formulas change at a time."""
 
@@ -369,6 +376,11 @@ class Pieces(Piecewise):
         """See `Piecewise.exact_breakpoints_between`."""
         ends = self.exact_until
         return ends[bisect_right(ends, start) : bisect_left(ends, end)]
+
+    def exact_last_breakpoint_before(self, t: QQ) -> QQ | None:
+        """See `Piecewise.exact_last_breakpoint_before`."""
+        ended = bisect_left(self.exact_until, t)
+        return self.exact_until[ended - 1] if ended else None
 
     def exact_is_breakpoint(self, t: QQ) -> bool:
         """See `Piecewise.exact_is_breakpoint`."""

@@ -204,6 +204,11 @@ class Spin(Piecewise):
         self._check_count(last - first)
         return [k * step for k in range(int(first), int(last))]
 
+    def exact_last_breakpoint_before(self, t: QQ) -> QQ | None:
+        """See `Piecewise.exact_last_breakpoint_before`: a time of the grid."""
+        step = self.exact_step
+        return None if step is None else (ceil(t / step) - 1) * step
+
     def exact_is_breakpoint(self, t: QQ) -> bool:
         """See `Piecewise.exact_is_breakpoint`."""
         return self.exact_step is not None and (t / self.exact_step).denominator == 1

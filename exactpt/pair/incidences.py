@@ -71,12 +71,12 @@ class ContactPoint:
 
 
 def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
-    """Return the trajectories of a body just before a time; at the start, just after."""
+    """Return the trajectories of a body just before a time; just after it if it begins there."""
     return _piece_before(body, time, start).tracks
 
 
 def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
-    """Return the motion of a body just before a time; at the start, just after it."""
+    """Return the motion of a body just before a time; just after it if the body begins there."""
     return body.exact_piece_after(body.exact_last_breakpoint(time, start, before=True))
 
 

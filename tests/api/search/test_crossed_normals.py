@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from exactpt import Affine, Body, Planner, Scene, Translation, first_contact
+from exactpt import Affine, Body, Pieces, Planner, Scene, Translation, first_contact
 
 CROSSED = [(-1, 1), {"x": [2], "y": [1, 1]}, (-1, -1), {"x": [-1, 1], "y": [0]}]
 """It crosses itself at t = 1."""
@@ -49,3 +49,14 @@ def test_normal_where_both_sides_are_outside_is_that_from_which_the_vertex_came(
 
     assert contact.time == 1
     assert {pair.normal for pair in contact.pairs} == {(0, y)}
+
+
+@pytest.mark.parametrize("x", [1, -1])
+def test_normal_of_a_contact_at_the_start_is_that_of_the_motion_before_it(x):
+    """A point comes to a wall until t = 1, and rests there; the scene begins at t = 1."""
+    stop = Pieces([(0, Translation()), (1, Translation([0, x])), (None, Translation([x]))])
+    scene = Scene([Body("point", [(0, 0)], stop), Body("wall", [(x, -1), (x, 1)])], (1, 2))
+
+    (pair,) = first_contact(scene).pairs
+
+    assert pair.normal == (-x, 0)  # it came from the side of the origin

@@ -120,3 +120,18 @@ def test_bug_a_distance_was_forgotten_by_rows_that_wait(corner, distance):
 
     assert approach == expected
     assert approach is not None
+
+
+def test_bug_details_of_a_late_contact_made_all_pieces_before_it():
+    """A point comes to a wheel of radius 1 from x = -1000, at a thousandth of a unit: near t = 10^6.
+
+    Its incidence asked for all breakpoints up to that time, and there were too many.
+    """
+    wheel = Body("wheel", [(0, 0), (1, 0)], Spin(1, error="1/1000"))
+    point = Body("point", [(-1000, 0)], Translation([0, "1/1000"]))
+
+    contact = first_contact(Scene([wheel, point], (0, 10**6)))
+
+    (pair,) = contact.pairs
+    assert 999_000 <= contact.time <= 10**6
+    assert (pair.body, pair.other, pair.edge) == ("point", "wheel", 0)
