@@ -432,8 +432,8 @@ PLANTED: Final[dict[str, Mistake]] = {
         Edit(
             Slabs,
             "__iter__",
-            "low, length = high, 2.0 * length",
-            "low, length = low + 2.0 * length, 2.0 * length",
+            "low, length = slab.high,",
+            "low, length = slab.high + slab.high - slab.low,",
         ),
     ),
     "groups but the first forgotten": Mistake(
@@ -476,7 +476,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     ),
     "bodies left waiting for their pieces": Mistake(
         "What is put off is never done.",
-        Edit(Slabs, "__iter__", "while pairs.waiting:", "while not pairs:"),
+        Edit(Slabs, "_with_pieces", "while slab.pairs.waiting:", "while not slab:"),
     ),
     "affine bodies taken for rigid ones": Mistake(
         "A comparison of kinds is off by one.",

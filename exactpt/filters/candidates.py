@@ -76,7 +76,8 @@ class Candidates:
         low, high, one, vertex, other, edge, other_vertex, until: as in `Candidate`.
         sure: 1 if the two certainly touch at or before ``high``, else 0.
         limit: no candidate that begins later matters; some pair certainly touches at or before it.
-        compared: how many pairs of features were compared.
+        compared: how many pairs of features were compared; the two sides of an edge count twice if
+            there are radii. It is at least the number of candidates.
         pairs: how many pairs of pieces were.
     """
 

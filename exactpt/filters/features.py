@@ -250,6 +250,7 @@ class Filter:
             if state != NONE:
                 self._keep(state, vertex_on_edge(p.piece, v, q.piece, e), found)
             return
+        found.compared += 1  # each side of the edge counts by itself
         f0, error = zero.f0, zero.error
         for side in (distance, -distance):
             zero.f0, zero.error = f0, error
@@ -293,6 +294,7 @@ class Filter:
             i, j = table.begins[first + e], table.ends[first + e]
             zero.z.set(p.rows, i, p.rows, j, 2.0 * p.rho)
             if i != j and not zero.z.is_far(0.0):
+                found.compared += 1
                 self._keep_whole_window(two_vertices(p.piece, i, p.piece, j), found)
             e += 1
 

@@ -123,7 +123,7 @@ def test_bug_a_distance_was_forgotten_by_rows_that_wait(corner, distance):
 
 
 def test_bug_details_of_a_late_contact_made_all_pieces_before_it():
-    """A point comes to a wheel of radius 1 from x = -1000, at a thousandth of a unit: near t = 10^6.
+    """A point comes to a wheel of radius 1 from x = -1000, a thousandth at a time: near t = 10^6.
 
     Its incidence asked for all breakpoints up to that time, and there were too many.
     """
