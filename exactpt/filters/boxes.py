@@ -22,10 +22,12 @@ direction.
 *Errors.* A place is off by e at most in x and in y, and its turn by less than 2 e. The path is off
 by path_error + speed_error |t|, beside relative errors, which are in r. The radius is added.
 
-*Rounding.* Every sum and product below is rounded by at most U of its size. Of the terms that are
-added up to a side of a box, each goes through 6 operations at most: so 16 U of the sum of their
-sizes covers that, `SLACK` the rounding of the bounds, `TINY` underflow. A number that is out of
-range ends in a margin that is infinite or NaN: then the box is the plane.
+*Rounding.* Every sum and product below is rounded by at most U of its size. A term of the path or
+of the drift goes through 5 operations at most until it is in the center or the reach (`course`):
+that is in the reach, by 16 U of the sizes of all terms. Then a side of a box is a sum of three
+terms and of two bounds: 16 U of the sizes of these terms again (`around_path`). `SLACK` covers the
+rounding of bounds, `TINY` underflow. A number that is out of range ends in a margin that is
+infinite or NaN: then the box is the plane.
 
 **The pairs of boxes that meet**: `strips`.
 """

@@ -17,7 +17,8 @@ order in the width: a window of a thousandth has a remainder of 10^-9.
 
 Rounding. A term of a sum of products that goes through k operations is multiplied by a number
 within 1 +- k U / (1 - k U) (Higham, lemma 3.1). So the error of the sum is at most about k U times
-the sum of the sizes of all terms. Below, k is at most 8, with the error of the given coefficients.
+the sum of the sizes of all terms. Below, k is at most 10 with the errors of what is given: of
+coefficients, and of a time since an origin.
 The bound is `ROUNDING` = 16 U times that sum, as computed; the factor `SLACK` covers the rounding
 of the bound.
 

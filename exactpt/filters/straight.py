@@ -129,12 +129,12 @@ def relative_path(table: Table, a: i64, b: i64, axis: i64) -> tuple[float, float
 def meeting(table: Table, a: i64, b: i64, low: float, high: float) -> tuple[float, float]:
     """Return bounds of the times in [low, high] at which the boxes of two pieces intersect.
 
-    The first bound is larger than the second if they do not intersect at all. Along x, the boxes
-    intersect while
-        left of b - right of a <= cx + wx t <= right of b - left of a.
-    with the sum of the radii on both sides. The error is that of two places, of c, and of w times
-    |t|. Rounding: both bounds are at least that sum away from the middle between them, so their
-    sizes add up to twice the sum or more, and `while_between` covers one more difference.
+    The first bound is larger than the second if they do not intersect at all. With R, the sum of
+    the radii, the boxes intersect along x while
+        (left of b - right of a) - R <= cx + wx t <= (right of b - left of a) + R.
+    The error is that of two places, of c, and of w times |t|. The two bounds are 2 R or more apart,
+    so their sizes add up to 2 R at least: of these sizes `while_between` takes `ROUNDING`, which
+    covers the rounding of the differences with R, too.
     """
     cx, wx = relative_path(table, a, b, PATH_X)
     cy, wy = relative_path(table, a, b, PATH_Y)

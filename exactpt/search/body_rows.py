@@ -21,7 +21,6 @@ from exactpt.filters.rounding import LARGEST, SLACK, SMALLEST, TINY, U
 from exactpt.filters.rows import (
     AFFINE,
     CURVED,
-    EXACT,
     FRAME,
     GENERAL,
     LINE,
@@ -66,7 +65,7 @@ class Row(NamedTuple):
     piece: Piece
 
 
-class Places(NamedTuple):
+class Anchored(NamedTuple):
     """Places of the vertices of a body, relative to an anchor.
 
     Attributes:
@@ -145,8 +144,7 @@ class BodyRows:
             edges = body.edges or [(0, 0)]
             self._edges = len(edges)
             self._edge = table.add_edges(edges)
-        self._places: dict[Point, Places] = {}
-        self._loses_tiny_ones = False  # of the coefficients of the path at hand
+        self._places: dict[Point, Anchored] = {}
 
     def adding_to(self, table: Table, radius: float) -> BodyRows:
         """Return what reads the same body into another table, with another radius."""
@@ -164,11 +162,12 @@ class BodyRows:
         if not _are_short(motion.x, motion.y):
             return None
         places = self._places_from(motion.exact_pivot)
+        errors: Errors | None
         if max(motion.x.degree, motion.y.degree) < int(LINE):
             frame, errors = self._line(motion, motion.exact_pivot, places)
             origin, terms = 0.0, int(LINE)
         else:
-            origin, terms, errors = _origin(span.low, span.high), 0, EXACT
+            origin, terms, errors = _origin(span.low, span.high), 0, None
             frame = self._path(motion, motion.exact_pivot, origin)
         box = places.turned_box
         piece = self._piece(
@@ -217,7 +216,7 @@ class BodyRows:
         return self._piece(span, STRAIGHT, places, frame=frame, errors=errors)
 
     def _line(
-        self, motion: Translation | Spin, anchor: Point, places: Places
+        self, motion: Translation | Spin, anchor: Point, places: Anchored
     ) -> tuple[list[float], Errors]:
         """Return the frame of a path of degree 1, and the errors of a row with these places."""
         x = self._rounded(self._exactly_along(motion.x, anchor[0], 0, 0.0))
@@ -231,8 +230,8 @@ class BodyRows:
         frame = self._path(motion, motion.exact_pivot, origin)
         frame += _padded(self._near(self._of_time(motion.half_turn, origin)))
         cosine, sine = motion.exact_orientation
-        turn = [0.0, 0.0] if cosine == 1 else [nearest_float(cosine), nearest_float(sine)]
-        frame += turn
+        # Of a sine below the doubles the error is 2^-1075 at most: `TINY` in `scaled` covers it.
+        frame += [0.0, 0.0] if cosine == 1 else [nearest_float(cosine), nearest_float(sine)]
         piece = self._piece(
             span, TURNING, places, frame=frame, box=places.turned_box, origin=origin
         )
@@ -267,7 +266,6 @@ class BodyRows:
         for vertex in range(self._body.size):
             track = piece.track(vertex)
             if len(track.w) > 1 or max(len(track.x), len(track.y)) > TERMS:
-                self._loses_tiny_ones = False
                 return None
             for axis, f in enumerate((track.x, track.y)):
                 coefficients = [QQ(c, track.w[0]) for c in f]
@@ -301,7 +299,7 @@ class BodyRows:
             w = [QQ(c) for c in track.w]
             x, y = ([QQ(c) for c in f] for f in (track.x, track.y))
             w_in_time = self._in_time(w, origin)
-            scale = 1 / w_in_time[0]  # w > 0: so its first coefficient is 1, and none is large
+            scale = 1 / w_in_time[0]  # w > 0, and its first coefficient becomes 1
             of_vertex = [
                 _less(self._place_in_time(x, 0, origin, w), anchor_x, w_in_time),
                 _less(self._place_in_time(y, 1, origin, w), anchor_y, w_in_time),
@@ -329,7 +327,7 @@ class BodyRows:
         self,
         span: Span,
         kind: int,
-        places: Places | None = None,
+        places: Anchored | None = None,
         *,
         place: int = 0,
         frame: Sequence[float] = (),
@@ -339,14 +337,12 @@ class BodyRows:
         terms: int = 0,
     ) -> Piece:
         """Return a row with the numbers that are given, and with what all rows of the body have."""
+        place_error = 0.0
         if places is not None:
-            place = places.number
+            place, place_error = places.number, places.error
             box = box or places.box
-            errors = errors or Errors(places.error, 0.0, 0.0)
-        errors = errors or EXACT
-        if self._loses_tiny_ones:
-            self._loses_tiny_ones = False
-            errors = errors._replace(path=errors.path + _tiny_path(span, origin))
+        if errors is None:
+            errors = Errors(place_error, _tiny_path(span, origin), 0.0)
         return Piece(
             body=self._number,
             kind=int(kind),
@@ -365,7 +361,7 @@ class BodyRows:
             terms=terms,
         )
 
-    def _places_from(self, anchor: Point) -> Places:
+    def _places_from(self, anchor: Point) -> Anchored:
         """Return the places relative to an anchor; added to the table once."""
         known = self._places.get(anchor)
         if known is not None:
@@ -373,21 +369,34 @@ class BodyRows:
         near = self._body.exact_shape.near
         if self._units.is_identity and near is not None and not any(anchor):
             xs, ys, is_exact = near
-        elif self._units.is_identity and near is not None and (short := _moved(near, anchor)):
-            xs, ys, is_exact = short
         else:
-            scale = power_of_two(-self._units.scale[0])
-            exact = [self._body.exact_shape.rest_place(k) for k in range(self._body.size)]
-            x_exact = [(x - anchor[0]) * scale for x, _ in exact]
-            y_exact = [(y - anchor[1]) * scale for _, y in exact]
-            xs, ys = [*map(nearest_float, x_exact)], [*map(nearest_float, y_exact)]
-            is_exact = _are_doubles(x_exact, xs) and _are_doubles(y_exact, ys)
+            xs, ys, is_exact = self._moved_in_doubles(anchor) or self._moved(anchor)
         box = min(xs), max(xs), min(ys), max(ys)
         error = 0.0 if is_exact else _off(max(map(abs, box)))
         farthest_squared = max([x * x + y * y for x, y in zip(xs, ys, strict=True)])
-        places = Places(self._table.add_places(xs, ys), box, error, farthest_squared)
+        places = Anchored(self._table.add_places(xs, ys), box, error, farthest_squared)
         self._places[anchor] = places
         return places
+
+    def _moved_in_doubles(self, anchor: Point) -> shape.Places | None:
+        """Return the places relative to an anchor, if doubles have both exactly: rounded once."""
+        near = self._body.exact_shape.near
+        if near is None or not (near.is_exact and self._units.is_identity):
+            return None
+        x, y = nearest_float(anchor[0]), nearest_float(anchor[1])
+        if x != anchor[0] or y != anchor[1]:
+            return None
+        return shape.Places([a - x for a in near.xs], [b - y for b in near.ys], is_exact=False)
+
+    def _moved(self, anchor: Point) -> shape.Places:
+        """Return the places relative to an anchor, in units: rounded once."""
+        scale = power_of_two(-self._units.scale[0])
+        exact = [self._body.exact_shape.rest_place(k) for k in range(self._body.size)]
+        xs_exact = [(x - anchor[0]) * scale for x, _ in exact]
+        ys_exact = [(y - anchor[1]) * scale for _, y in exact]
+        xs, ys = [*map(nearest_float, xs_exact)], [*map(nearest_float, ys_exact)]
+        is_exact = _are_doubles(xs_exact, xs) and _are_doubles(ys_exact, ys)
+        return shape.Places(xs, ys, is_exact=is_exact)
 
     def _path(
         self, motion: Translation | Rigid | Affine | Spin, anchor: Point, origin: float
@@ -452,20 +461,16 @@ class BodyRows:
                 errors[k] = _off(abs(near[k]))
         return Rounded(near, errors)
 
-    def _near_path(self, f: Sequence[QQ | float]) -> list[float]:
-        """Return the nearest doubles of the coefficients of a path: 0 for the tiniest."""
-        found = []
-        for c in f:
-            near = _in_range(c)
-            if math.isnan(near) and -SMALLEST < c < SMALLEST:
-                self._loses_tiny_ones = True
-                near = 0.0
-            found.append(near)
-        return found
-
     def _near(self, f: Sequence[QQ | float]) -> list[float]:
         """Return the nearest doubles: NaN where the error may be more than U of the number."""
         return [_in_range(c) for c in f]
+
+    def _near_path(self, f: Sequence[QQ | float]) -> list[float]:
+        """Return the nearest doubles of the coefficients of a path: 0 for the tiniest.
+
+        What that loses is in the error of the path, see `_tiny_path`.
+        """
+        return [0.0 if -SMALLEST < c < SMALLEST else _in_range(c) for c in f]
 
 
 class Rounded(NamedTuple):
@@ -523,18 +528,11 @@ def _in_range(c: QQ | float) -> float:
     return math.nan
 
 
-def _moved(near: shape.Places, anchor: Point) -> tuple[list[float], list[float], bool] | None:
-    """Return places relative to an anchor, if doubles have both exactly: differences, rounded."""
-    x, y = nearest_float(anchor[0]), nearest_float(anchor[1])
-    if not near.is_exact or x != anchor[0] or y != anchor[1]:
-        return None
-    return [a - x for a in near.xs], [b - y for b in near.ys], False
-
-
 def _tiny_path(span: Span, origin: float) -> float:
-    """Return a bound of a polynomial of which each coefficient is below the range of filters.
+    """Return a bound of what a path loses if coefficients below 2^-300 become 0.
 
-    With T the latest time since the origin, it is at most 2^-300 (1 + T + T^2 + T^3).
+    With T the latest time since the origin, it is at most 2^-300 (1 + T + T^2 + T^3). Nothing that
+    moves in these units is as small, so it is a part of all errors and asks for no care.
     """
     latest = max(1.0, abs(span.low - origin), abs(span.high - origin))
     return float(TERMS) * SMALLEST * latest * latest * latest * SLACK

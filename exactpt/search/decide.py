@@ -39,8 +39,10 @@ class Decider:
 
     Args:
         rows: the rows of all bodies.
-        squares: when two bodies touch; None if where their distance is the sum of their radii.
+        squares: when two bodies touch; None if where their distance is the sum of their radii. It
+            is the square of the sum of what the rows have as radii, or the filters would be wrong.
         trace: what writes about decisions; None for nothing.
+        exact_only: whether nothing is decided in doubles, not even if none is rounded.
 
     Attributes:
         best: the earliest time so far, and the incidences that begin at it.
@@ -48,8 +50,14 @@ class Decider:
     """
 
     def __init__(
-        self, rows: Rows, squares: Squares | None = None, trace: Trace | None = None
+        self,
+        rows: Rows,
+        squares: Squares | None = None,
+        trace: Trace | None = None,
+        *,
+        exact_only: bool = False,
     ) -> None:
+        self._exact_only = exact_only
         self._rows = rows
         self._squares = squares
         self._trace = trace
@@ -68,8 +76,8 @@ class Decider:
         candidates = found.rows()
         if self._trace is not None:
             self._trace.filtered(candidates, found.limit, until)
-        # The attempt in doubles is for ties, of which a lone candidate has none.
-        if len(candidates) < 2 or not self._decide_in_doubles(found, until):
+        may_tie = len(candidates) > 1  # the attempt in doubles is for ties
+        if self._exact_only or not may_tie or not self._decide_in_doubles(found, until):
             self._decide_one_by_one(candidates, min(found.limit, until))
         self._low = until
 
@@ -84,7 +92,8 @@ class Decider:
         """Decide candidates in doubles, all at once; return False if something was rounded."""
         rows = self._rows
         span = rows.span
-        if span.low != span.after or not rows.units.is_identity:  # the start is no double
+        is_start_double = span.low == span.after
+        if not is_start_double or not rows.units.is_identity:
             return False
         first = first_exactly(rows.table, found, span.after)
         if not first.holds:

@@ -27,12 +27,10 @@ from exactpt.pair.straight import Span
 from exactpt.scene.scene import Scene
 from exactpt.search.body_rows import BodyRows, MotionNumbers, Row, frame_of
 from exactpt.search.units import (
-    FEW_BITS,
-    LARGEST_EXPONENT,
     PLAIN,
     are_plain_places,
     are_plain_times,
-    is_long_or_short,
+    suits_high_degrees,
     units_of,
 )
 
@@ -191,7 +189,7 @@ class Rows:
                 del self._paths[row]
 
     def add_all(self) -> bool:
-        """Add all bodies; return True if doubles have all of them exactly."""
+        """Add all bodies; return True if all are straight and given in doubles."""
         bodies = self.bodies
         if self.units.is_identity and not isinstance(bodies, (tuple, list)):
             from exactpt.scene.body_arrays import BodyArrays  # it imports numpy
@@ -363,15 +361,15 @@ def rows_of(bodies: Sequence[Body], start: QQ, end: QQ, extra: QQ = NOTHING) -> 
         end: its end.
         extra: what is added to the radius of each body.
     """
-    rows = Rows(bodies, start, end, extra)
-    low, high, longest = rows.span.low, rows.span.high, LARGEST_EXPONENT
+    plain = Rows(bodies, start, end, extra)
+    low, high = plain.span.low, plain.span.high
     if are_plain_times(low, high):
-        is_exact = rows.add_all()
-        if len(rows.table.general) and is_long_or_short(low, high):
-            longest = FEW_BITS
-        elif is_exact or are_plain_places(rows.table, low):
-            return rows
-    rows = Rows(bodies, start, end, extra, units_of(bodies, start, end, longest))
+        is_exact = plain.add_all()
+        has_high_degrees = len(plain.table.general) > 0
+        is_timely = not has_high_degrees or suits_high_degrees(low, high)
+        if is_timely and (is_exact or are_plain_places(plain.table, low)):
+            return plain
+    rows = Rows(bodies, start, end, extra, units_of(bodies, start, end))
     rows.add_all()
     return rows
 

@@ -440,13 +440,24 @@ def pairs_of_bodies(
     table: Table, bodies: Sequence[tuple[int, int]], low: float, high: float
 ) -> Pairs:
     """Return the pairs of rows of given pairs of different bodies that may touch in [low, high]."""
-    groups = Groups(table, vec[i64](range(len(table.body))))
+    groups = Groups(table, rows_of_some(table, {i for pair in bodies for i in pair}))
     number = {int(body): p for p, body in enumerate(groups.body)}
     pairs, no_boxes = Pairs(), vec[float]()
     for i, j in bodies:
         check_budget()
         groups.add_pairs(pairs, i64(number[i]), i64(number[j]), no_boxes, low, high)
     return pairs
+
+
+def rows_of_some(table: Table, bodies: set[int]) -> vec[i64]:
+    """Return the rows of some bodies."""
+    found = vec[i64]()
+    k: i64 = 0
+    while k < len(table.body):
+        if int(table.body[k]) in bodies:
+            found = append(found, k)
+        k += 1
+    return found
 
 
 def boxes_during(table: Table, low: float, high: float) -> vec[float]:
@@ -456,10 +467,7 @@ def boxes_during(table: Table, low: float, high: float) -> vec[float]:
     while k < len(table.body):
         first, last = max(low, table.start[k]), min(high, table.end[k])
         left, right, bottom, top = of_piece(table, k, first, last, still)
-        boxes = append(boxes, left)
-        boxes = append(boxes, right)
-        boxes = append(boxes, bottom)
-        boxes = append(boxes, top)
+        boxes = append_box(boxes, left, right, bottom, top)
         k += 1
     return boxes
 

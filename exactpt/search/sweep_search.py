@@ -272,7 +272,7 @@ class Sweep:
         self._rows = rows
         self._slabs = iter(slabs)
         self._trace = trace_of(rows)
-        self._decider = Decider(rows, squares, self._trace)
+        self._decider = Decider(rows, squares, self._trace, exact_only=exact_only)
         self._deadline = deadline
         self._low: float | None = None
         self._in_progress: Scan | Decider | None = None

@@ -23,9 +23,9 @@ from exactpt.motion.body import Body
 from exactpt.motion.normalization import Normalization, binary_exponent
 
 LARGEST_EXPONENT: Final = 64
-"""Binary exponents of lengths and times that keep their units are at most of this size."""
+"""Binary exponents of lengths and times that may keep their units are at most of this size."""
 FEW_BITS: Final = 4
-"""The same of times, if polynomials have a high degree."""
+"""The same of times in units that are chosen: powers of a time are of its order then."""
 TINIEST: Final = 2.0**-LARGEST_EXPONENT
 ONE: Final = QQ(1)
 
@@ -33,17 +33,13 @@ PLAIN: Final = Normalization((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 """The units of most scenes: those in which they are given."""
 
 
-def units_of(
-    bodies: Sequence[Body], start: QQ, end: QQ, longest: int = LARGEST_EXPONENT
-) -> Normalization:
+def units_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Normalization:
     """Return units for the rows of some bodies in a time span, from their exact places.
 
     Args:
         bodies: the bodies.
         start: the start of the span.
         end: its end.
-        longest: the binary exponents of spans that keep their unit of time are at most of this
-            size.
     """
     places = []
     for body in bodies:
@@ -51,8 +47,8 @@ def units_of(
         places += body.exact_at(start)
     xs, ys = [x for x, _ in places], [y for _, y in places]
     extent = max(max(xs) - min(xs), max(ys) - min(ys)) if places else ONE
-    scale = _scale(binary_exponent(extent))
-    origin, time_scale = time_units(start, end, longest)
+    scale = _scale(binary_exponent(extent), LARGEST_EXPONENT)
+    origin, time_scale = time_units(start, end)
     center = _center(xs, extent), _center(ys, extent)
     return Normalization(center, (scale, scale), origin, time_scale)
 
@@ -72,29 +68,26 @@ def are_plain_places(table: Table, t: float) -> bool:
 
 
 def are_plain_times(low: float, high: float) -> bool:
-    """Return True if `time_units` of a span between two doubles are surely those of the scene."""
+    """Return True if a span between two doubles is neither far from 0 nor very short or long."""
     duration = high - low
     if not TINIEST < duration < 1.0 / TINIEST:
         return False
     return max(abs(low), abs(high)) <= 0.5 * FAR * duration
 
 
-def is_long_or_short(low: float, high: float) -> bool:
-    """Return True if powers of a time span are of another order than the span itself.
-
-    Polynomials of a high degree have such powers.
-    """
-    return not 2.0**-FEW_BITS <= high - low <= 2.0**FEW_BITS
+def suits_high_degrees(low: float, high: float) -> bool:
+    """Return True if high powers of a time span are about of the order of the span itself."""
+    return 2.0**-FEW_BITS <= high - low <= 2.0**FEW_BITS
 
 
-def time_units(start: QQ, end: QQ, longest: int = LARGEST_EXPONENT) -> tuple[QQ, int]:
+def time_units(start: QQ, end: QQ) -> tuple[QQ, int]:
     """Return the origin of the time, and the binary exponent of its unit."""
     duration = end - start
     is_far = max(abs(start), abs(end)) > QQ(FAR) * duration
-    return (start if is_far else QQ(0)), _scale(binary_exponent(duration), longest)
+    return (start if is_far else QQ(0)), _scale(binary_exponent(duration), FEW_BITS)
 
 
-def _scale(exponent: int, largest: int = LARGEST_EXPONENT) -> int:
+def _scale(exponent: int, largest: int) -> int:
     """Return the exponent of a unit: 0 unless it is needed."""
     return 0 if abs(exponent) <= largest else exponent
 

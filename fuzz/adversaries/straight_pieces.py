@@ -28,12 +28,15 @@ class ManyFeatures:
         points: the vertices.
         path: cx, cy, wx, wy.
         errors: those that are stated.
-        exact: multiplied as in `Row`, first the coordinates of the vertices, then the path.
+        radius: the radius, exactly.
+        exact: multiplied as in `Row`, first the coordinates of the vertices, then the path and the
+            radius.
     """
 
     points: list[tuple[float, float]]
     path: list[float]
     errors: Errors
+    radius: float = 0.0
     exact: list[int] = field(default_factory=list)
 
     def add_to(self, table: Table) -> None:
@@ -56,23 +59,31 @@ class ManyFeatures:
             frame=frame,
             box=box,
             errors=self.errors,
-            radius=0.0,
+            radius=self.radius,
             deforms=False,
         )
         table.add_piece(piece)
 
     def numbers(self) -> list[float]:
         """All doubles, in the order of ``exact``."""
-        return [c for point in self.points for c in point] + self.path
+        return [*(c for point in self.points for c in point), *self.path, self.radius]
+
+    def exact_path(self) -> list[int]:
+        """The exact numbers of the path."""
+        first = 2 * len(self.points)
+        return self.exact[first : first + len(self.path)]
 
     def bounds(self) -> list[float]:
         """The error of each of these."""
-        return [self.errors.place] * (2 * len(self.points)) + [
-            *[self.errors.path] * 2, *[self.errors.speed] * 2
-        ]  # fmt: skip
+        of_places = [self.errors.place] * (2 * len(self.points))
+        of_path = [self.errors.path] * 2 + [self.errors.speed] * 2
+        of_radius = [0.0]
+        return of_places + of_path + of_radius
 
 
-def two_pieces(rng: random.Random) -> tuple[ManyFeatures, ManyFeatures, float]:
+def two_pieces(
+    rng: random.Random, *, with_radii: bool = False
+) -> tuple[ManyFeatures, ManyFeatures, float]:
     """Return two pieces, and a time at which two of their vertices are about at one place."""
     number = rng.choice([grid_number, random_number])
     has_errors = rng.random() < 0.3
@@ -108,6 +119,9 @@ def two_pieces(rng: random.Random) -> tuple[ManyFeatures, ManyFeatures, float]:
     if where == "far places":
         for piece in pieces:
             piece.points = [(x + far_x, y) for x, y in piece.points]
+    if with_radii:
+        for piece in pieces:
+            piece.radius = rng.choice([0.0, 0.0, 1.0, rng.random()])
     add_exact(rng, a, b)
     return a, b, time
 
@@ -132,7 +146,7 @@ def add_exact(rng: random.Random, *pieces: ManyFeatures) -> None:
         for x, error in zip(integers[:count], integers[count:], strict=True)
     ]
     for piece in pieces:
-        size = 2 * len(piece.points) + 4
+        size = len(piece.numbers())
         piece.exact, exact = exact[:size], exact[size:]
 
 
@@ -163,15 +177,19 @@ def box_times(a: ManyFeatures, b: ManyFeatures, of_one: list[int], of_other: lis
         b: another one.
         of_one: the numbers of the vertices of a in the box.
         of_other: those of b.
+
+    Boxes are larger on all sides by the radius.
     """
     spans: list[Span] = []
-    of_a, of_b = 2 * len(a.points), 2 * len(b.points)
+    path_a, path_b = a.exact_path(), b.exact_path()
+    reach = a.exact[-1] + b.exact[-1]
     for axis in range(2):
         one = [a.exact[2 * k + axis] for k in of_one]
         other = [b.exact[2 * k + axis] for k in of_other]
-        c = a.exact[of_a + axis] - b.exact[of_b + axis]
-        w = a.exact[of_a + 2 + axis] - b.exact[of_b + 2 + axis]
-        spans.append(between(min(other) - max(one), max(other) - min(one), c, w))
+        c = path_a[axis] - path_b[axis]
+        w = path_a[2 + axis] - path_b[2 + axis]
+        least, most = min(other) - max(one) - reach, max(other) - min(one) + reach
+        spans.append(between(least, most, c, w))
     return common(*spans)
 
 
@@ -185,7 +203,7 @@ def attack_boxes(pairs: int, seed: int) -> Tally:
     rng = random.Random(seed)
     tally = Tally()
     for _ in range(pairs):
-        a, b, time = two_pieces(rng)
+        a, b, time = two_pieces(rng, with_radii=True)
         low, high = random_window(rng, time)
         first, last = straight.meeting(table_of(a, b), 0, 1, low, high)
         row = Row("boxes", repr((a, b)), (), (), (a.errors, b.errors), low, high)
@@ -270,8 +288,7 @@ def judge_features(
     """Compare the candidates of vertices of a piece with the exact times of contact."""
     low, high = window
     size = len(b.points)
-    of_a, of_b = 2 * len(a.points), 2 * size
-    paths = a.exact[of_a:] + b.exact[of_b:]
+    paths = a.exact_path() + b.exact_path()
     for vertex in range(len(a.points)):
         v = a.exact[2 * vertex : 2 * vertex + 2]
         for edge in range(size):

@@ -50,7 +50,7 @@ def test_edited_function_is_wrong_for_those_who_imported_it_too():
     """This module has `rows_of` by name: a patch of `reading` would not reach it."""
     point = Body("point", [(0, 0)])
 
-    with Edit(reading, "rows_of", "is_exact = rows.add_all()", "is_exact = True").made():
+    with Edit(reading, "rows_of", "is_exact = plain.add_all()", "is_exact = True").made():
         assert rows_of([point], QQ(0), QQ(1)).table.count() == 0
     assert rows_of([point], QQ(0), QQ(1)).table.count() == 1
 

@@ -368,6 +368,8 @@ PLANTED = {
     "boxes without speeds": Edit(
         straight, "meeting", "table.speed_error[a] + table.speed_error[b]", "0.0"
     ),
+    "boxes without radii": Edit(straight, "meeting", "(table.radius[a] + table.radius[b])", "0.0"),
+    "boxes smaller by radii": Edit(straight, "meeting", "right_a) - reach", "right_a) + reach"),
     "boxes without errors": Edit(straight, "while_between", "2.0 * error + ", ""),
     "boxes without rounding": Edit(
         straight, "while_between", " + ROUNDING * (abs(c) + abs(least) + abs(most))", ""

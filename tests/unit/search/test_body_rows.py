@@ -277,7 +277,7 @@ def test_rows_of_vertices_that_are_quotients_have_w_that_begins_with_1(factor):
 
 
 MISTAKES = {
-    "the turn": Edit(BodyRows, "_turning", "    frame += turn\n", ""),
+    "the turn": Edit(BodyRows, "_turning", "cosine == 1 else", "True else"),
     "the pivot": Edit(
         BodyRows,
         "_turning",
