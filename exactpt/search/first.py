@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from exactpt.errors import InputError, carrying
 from exactpt.extensions import extension
-from exactpt.kernel.budget import bounded
+from exactpt.kernel.budget import bounded, deadline_in
 from exactpt.kernel.numbers import Rational, shorten
 from exactpt.motion.tileable import are_tileable
 from exactpt.pair.contact import Contact
@@ -17,7 +17,7 @@ from exactpt.scene.groups import groups_given
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.search.query import Selection
 from exactpt.search.reading import rows_of_scene
-from exactpt.search.sweep_search import PairsDuring, SweepSearch, pairs_that_count
+from exactpt.search.sweep_search import Slabs, Sweep, SweepSearch, pairs_that_count
 
 if TYPE_CHECKING:
     from exactpt.search.new import NewContactSearch
@@ -211,12 +211,14 @@ def _new_search(
     """Return the search for new contacts."""
     from exactpt.search.new import NewContactSearch  # few callers ask for it
 
+    deadline = deadline_in(max_seconds)
     rows = rows_of_scene(scene)
 
-    def pairs_but(apart: Sequence[tuple[int, int]]) -> PairsDuring:
-        return pairs_that_count(rows, selection, apart)
+    def sweep_but(apart: Sequence[tuple[int, int]]) -> Sweep:
+        slabs = Slabs(rows, pairs_that_count(rows, selection, apart))
+        return Sweep(rows, slabs, exact_only=exact_only, deadline=deadline)
 
-    return NewContactSearch(scene, rows, pairs_but, exact_only=exact_only, max_seconds=max_seconds)
+    return NewContactSearch(scene, sweep_but, deadline)
 
 
 def _certified(scene: Scene, question: ContactQuery) -> Search:

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import chain
-from typing import TypeAlias, final
+from typing import NamedTuple, TypeAlias, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.budget import check_budget, deadline_in, searching
+from exactpt.kernel.budget import check_budget, searching
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.track import Incidence, renumbered
@@ -26,13 +26,22 @@ from exactpt.pair.start import initial_touches, touches_at_distance
 from exactpt.pair.straight import Earliest
 from exactpt.scene.scene import Scene, scene_of
 from exactpt.search.intervals import incidence_times
-from exactpt.search.reading import Rows
-from exactpt.search.sweep_search import PairsDuring, Slabs, Sweep, stats_of
+from exactpt.search.sweep_search import Sweep, stats_of
 
-PairsBut: TypeAlias = "Callable[[Sequence[tuple[int, int]]], PairsDuring]"
-"""Returns what finds all pairs of rows that count, but for some pairs of bodies."""
-Meeting: TypeAlias = "tuple[tuple[int, int], Iterable[Incidence]]"
-"""Two bodies, and the incidences with which their contact begins."""
+SweepBut: TypeAlias = "Callable[[Sequence[tuple[int, int]]], Sweep]"
+"""Returns the sweep over all pairs of bodies that count, but for some."""
+
+
+class Meeting(NamedTuple):
+    """What comes into contact at a time.
+
+    Attributes:
+        touches: the incidences with which the contact begins.
+        pair: the two bodies, if they touched before; else None.
+    """
+
+    touches: Iterable[Incidence]
+    pair: tuple[int, int] | None = None
 
 
 @final
@@ -41,10 +50,8 @@ class NewContactSearch:
 
     Args:
         scene: the bodies, their motions and the time span.
-        rows: the rows of the bodies.
-        pairs_but: finds pairs of rows.
-        exact_only: whether exact arithmetic decides all that boxes do not exclude.
-        max_seconds: time limit, in seconds; None for no limit.
+        sweep_but: returns the sweep over other pairs.
+        deadline: the time on the clock after which the search ends; None for no limit.
 
     Attributes:
         name: the name of the tiling: None.
@@ -52,26 +59,11 @@ class NewContactSearch:
 
     name = None
 
-    def __init__(
-        self,
-        scene: Scene,
-        rows: Rows,
-        pairs_but: PairsBut,
-        *,
-        exact_only: bool = False,
-        max_seconds: float | None = None,
-    ) -> None:
+    def __init__(self, scene: Scene, sweep_but: SweepBut, deadline: float | None = None) -> None:
         self._scene = scene
-        self._rows = rows
-        self._pairs_but = pairs_but
-        self._exact_only = exact_only
-        self._deadline = deadline_in(max_seconds)
-        self._sweep = self._sweep_but([])
-
-    def _sweep_but(self, apart: Sequence[tuple[int, int]]) -> Sweep:
-        """Return the sweep over all pairs that count, but for some."""
-        slabs = Slabs(self._rows, self._pairs_but(apart))
-        return Sweep(self._rows, slabs, exact_only=self._exact_only, deadline=self._deadline)
+        self._sweep_but = sweep_but
+        self._deadline = deadline
+        self._sweep = sweep_but([])
 
     @property
     def stats(self) -> dict[str, object]:
@@ -100,23 +92,19 @@ class NewContactSearch:
         touching = initial_touches(scene, near)[1] if near else []
         if touching:
             self._sweep = self._sweep_but(touching)
-        found = self._sweep.first_after_start()
         first: Earliest[Meeting] = Earliest()
-        touches: list[Incidence] = []
+        found = self._sweep.first_after_start()
         if found is not None:
-            first.add(found.number, [])
-            touches = found.touches
+            first.add(found.number, [Meeting(found.touches)])
         for pair in touching:
             check_budget()
             self._add_renewed(pair, first)
         if first.number is None:
             return None
-        if found is None or first.number.compare(found.number) < 0:
-            touches = []
-        touches += [touch for _, some in first.found for touch in some]
+        touches = chain.from_iterable(meeting.touches for meeting in first.found)
         is_at_start = first.number.compare_rational(scene.exact_start) == 0
-        pairs = sorted(pair for pair, _ in first.found) if is_at_start else []
-        return contact_of(scene, first.number, touches, pairs)
+        renewed = sorted(meeting.pair for meeting in first.found if meeting.pair is not None)
+        return contact_of(scene, first.number, touches, renewed if is_at_start else [])
 
     def _add_renewed(self, pair: tuple[int, int], first: Earliest[Meeting]) -> None:
         """Add the first new contact of two bodies that touch at the start, unless it is too late.
@@ -136,7 +124,7 @@ class NewContactSearch:
         touches = (
             initial_touches(part)[0] if is_at_start else touches_at_distance(part, [(0, 1)], time)
         )
-        first.add(time, [(pair, renumbered(touches, *pair))])
+        first.add(time, [Meeting(renumbered(touches, *pair), pair)])
 
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:

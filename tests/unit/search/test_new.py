@@ -5,10 +5,7 @@ from fractions import Fraction
 import pytest
 
 from exactpt import Body, Pieces, Rigid, Scene, Translation, first_contact
-from exactpt.search.new import NewContactSearch
-from exactpt.search.query import Selection
-from exactpt.search.reading import rows_of
-from exactpt.search.sweep_search import pairs_that_count
+from exactpt.search.first import ContactQuery, search_for
 from exactpt.testing import reference
 from exactpt.testing.scenes import FAMILIES, generate
 
@@ -16,14 +13,9 @@ SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 FLOOR = Body("floor", [(-9, -2), (9, -2), (9, 0), (-9, 0)])
 
 
-def search_for(scene, *, exact_only=False, between=None):
-    selection = Selection(scene, between, [])
-    rows = rows_of(scene.bodies, scene.exact_start, scene.exact_end)
-
-    def pairs_but(apart):
-        return pairs_that_count(rows, selection, apart)
-
-    return NewContactSearch(scene, rows, pairs_but, exact_only=exact_only)
+def new_contact_search(scene, *, exact_only=False, between=None):
+    query = ContactQuery("auto", "auto", exact_only=exact_only, between=between, after_start=True)
+    return search_for(scene, query)
 
 
 def jumping(height=1):
@@ -33,7 +25,9 @@ def jumping(height=1):
 
 @pytest.mark.parametrize("exact_only", [False, True])
 def test_bodies_that_part_and_touch_again_have_a_new_contact(exact_only):
-    contact = search_for(Scene([FLOOR, jumping()], (0, 9)), exact_only=exact_only).run_to_contact()
+    contact = new_contact_search(
+        Scene([FLOOR, jumping()], (0, 9)), exact_only=exact_only
+    ).run_to_contact()
 
     assert contact.time == 2
     assert contact.kind == "vertex-edge"
@@ -42,7 +36,7 @@ def test_bodies_that_part_and_touch_again_have_a_new_contact(exact_only):
 def test_bodies_that_touch_and_begin_to_overlap_have_one_at_the_start():
     down = Body("ball", SQUARE, Translation([0], [0, -1]))
 
-    contact = search_for(Scene([FLOOR, down], (0, 9))).run_to_contact()
+    contact = new_contact_search(Scene([FLOOR, down], (0, 9))).run_to_contact()
 
     assert (contact.time, contact.kind) == (0, "initial")
     assert contact.initial_pairs == (("floor", "ball"),)
@@ -56,7 +50,7 @@ def test_earliest_of_a_renewed_contact_and_of_another_one_is_found(height, first
     other = Body("other", [(x + 5, y + 3) for x, y in SQUARE], Translation([0], [0, -1]))
     scene = Scene([FLOOR, jumping(Fraction(height)), other], (0, 9))
 
-    contact = search_for(scene).run_to_contact()
+    contact = new_contact_search(scene).run_to_contact()
 
     assert contact.time == min(2 * Fraction(height), 3)
     assert {pair.body for pair in contact.pairs} | {pair.other for pair in contact.pairs} == {
@@ -69,7 +63,7 @@ def test_bodies_that_stay_in_touch_have_none():
     ride = Translation([0, 1])
     bodies = [FLOOR.with_motion(ride), Body("rider", SQUARE, ride)]
 
-    search = search_for(Scene(bodies, (0, 9)))
+    search = new_contact_search(Scene(bodies, (0, 9)))
 
     assert search.run_to_contact() is None
     assert search.contact_free_until() is None
@@ -80,7 +74,7 @@ def test_bodies_that_stay_in_touch_have_none():
 def test_named_pairs_alone_count():
     scene = Scene([FLOOR, jumping(), Body("post", [(0, 9), (1, 9)])], (0, 9))
 
-    assert search_for(scene, between=[("ball", "post")]).run_to_contact() is None
+    assert new_contact_search(scene, between=[("ball", "post")]).run_to_contact() is None
 
 
 def test_body_that_turns_away_and_comes_back_has_a_new_contact():
@@ -89,7 +83,7 @@ def test_body_that_turns_away_and_comes_back_has_a_new_contact():
     flap = Body("flap", [(0, 0), (3, 0), (3, 1)], Pieces([(1, up), (None, down)]))
     scene = Scene([FLOOR, flap], (0, 3))
 
-    contact = search_for(scene).run_to_contact()
+    contact = new_contact_search(scene).run_to_contact()
 
     assert contact.time == 2
     assert defined_by(contact) == reference.first_new_contact(scene)
@@ -112,6 +106,6 @@ def test_new_contacts_are_those_of_the_definition(family):
         few = Scene(bodies, (scene.start, scene.end))
         expected = reference.first_new_contact(few)
         for exact_only in (False, True):
-            contact = search_for(few, exact_only=exact_only).run_to_contact()
+            contact = new_contact_search(few, exact_only=exact_only).run_to_contact()
             assert defined_by(contact) == expected
             assert contact == first_contact(few, after_start=True)
