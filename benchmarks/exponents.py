@@ -52,6 +52,8 @@ SHORTEST: Final = 0.02
 """Seconds that the least size takes, at full size: smaller ones are passed over."""
 LONGEST: Final = 10.0
 """Seconds after which the sizes of a family end."""
+LARGEST: Final = 100
+"""No size above so many times the least one: a question that never takes long would not end."""
 
 
 class Family(NamedTuple):
@@ -92,9 +94,10 @@ def _row(name: str, sizes: Sizes) -> Row:
     seconds: list[float] = []
     n = max(2, round(family.size * sizes.share))
     while len(counts) < sizes.steps and not (seconds and seconds[-1] > LONGEST):
-        ask = family.make(n)
-        taken = min(timed(ask)[1] for _ in range(1 if seconds and seconds[-1] > 0.5 else 3))
-        if counts or taken >= SHORTEST * sizes.share:
+        repetitions = 1 if seconds and seconds[-1] > 0.5 else 3
+        taken = min(_seconds_of(family.make(n)) for _ in range(repetitions))
+        is_long_enough = taken >= SHORTEST * sizes.share or n > LARGEST * family.size
+        if counts or is_long_enough:
             counts.append(n)
             seconds.append(taken)
         n *= 2
@@ -104,6 +107,11 @@ def _row(name: str, sizes: Sizes) -> Row:
         "seconds": " ".join(f"{s:.3g}" for s in seconds),
         "exponent": exponent([n**family.work for n in counts], seconds),
     }
+
+
+def _seconds_of(ask: Ask) -> float:
+    """The time of a question asked once: a scene keeps what its first question has computed."""
+    return timed(ask)[1]
 
 
 # Shapes

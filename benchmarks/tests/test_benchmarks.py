@@ -467,8 +467,11 @@ def test_counts_of_scenes_beside_each_other(results):
     counts.run(results.output, counts.Sizes(("combs", "sliding_capsules"), (1, 4)), 0)
     rows = results.rows("counts")
     assert [(row["family"], row["scenes"]) for row in rows] == [
-        ("combs", "1"), ("combs", "4"), ("sliding_capsules", "1"), ("sliding_capsules", "4"),
-    ]  # fmt: skip
+        ("combs", "1"),
+        ("combs", "4"),
+        ("sliding_capsules", "1"),
+        ("sliding_capsules", "4"),
+    ]
     assert [row["bodies"] for row in rows[:2]] == ["2", "8"]
     assert [row["pairs"] for row in rows[:2]] == ["1", "4"]  # in one slab, none of two scenes
     assert 0 < int(rows[0]["compared"]) < int(rows[1]["compared"])
@@ -606,6 +609,21 @@ def test_exponents_of_every_family(results):
     assert [row["family"] for row in rows] == list(exponents.FAMILIES)
     assert len(rows) >= 30
     assert all(row["seconds"] for row in rows)
+
+
+def test_sizes_of_a_question_that_never_takes_long_have_an_end(results, monkeypatch):
+    made = []
+
+    def made_at_once(n):
+        made.append(n)
+        return lambda: None
+
+    monkeypatch.setitem(exponents.FAMILIES, "at once", exponents.Family(made_at_once, 2))
+
+    (row,) = exponents.run(results.output, exponents.Sizes(1, 2, ("at once",)), 0)
+
+    assert row["sizes"] == "256 512"
+    assert max(made) == 512
 
 
 def test_exponents_above_a_limit_are_an_exit_code(monkeypatch, tmp_path, capsys):
