@@ -24,13 +24,37 @@ from fuzz.changes.variants import Variant
 __all__ = ["FULL", "QUICK", "Sizes", "beside", "run"]
 
 FAMILIES: Final = (
-    "convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed",
-    "grids_passing", "row", "convoy", "polygons_in_step", "grazing",
-    "stars", "turning_stars", "combs", "spirals", "clamps", "letters", "chains", "flat", "nested",
-    "linear_points", "ballistic_points", "turning_points", "parabola_points",
-    "kissing_discs", "sliding_capsules", "rounded_motions",
-    "lakes", "orbits",
-)  # fmt: skip
+    "convex",
+    "mixed_shapes",
+    "ballistic",
+    "turning",
+    "deforming",
+    "pieces",
+    "keyframed",
+    "grids_passing",
+    "row",
+    "convoy",
+    "polygons_in_step",
+    "grazing",
+    "stars",
+    "turning_stars",
+    "combs",
+    "spirals",
+    "clamps",
+    "letters",
+    "chains",
+    "flat",
+    "nested",
+    "linear_points",
+    "ballistic_points",
+    "turning_points",
+    "parabola_points",
+    "kissing_discs",
+    "sliding_capsules",
+    "rounded_motions",
+    "lakes",
+    "orbits",
+)
 """Families of `exactpt.testing.scenes`; of each, most scenes are apart at the start."""
 
 MOMENTS: Final = 16

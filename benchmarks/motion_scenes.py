@@ -134,9 +134,9 @@ def _two_spins(size: int, rng: Random) -> Scene:  # noqa: ARG001
     """Two convex polygons that turn at constant rates; the pieces are fitted to within 10^-4."""
     moving = _spin(1, (0, 0), "1/10000", x=[0, "1/8"])
     staying = _spin("-1/2", (3, 0.2), "1/10000")
-    bodies = [Body("a", _polygon(5, 0, 0, 1, 0.1), moving),
-              Body("b", _polygon(4, 3, 0.2, 1, 0.3), staying)]  # fmt: skip
-    return Scene(bodies, time=(0, 10))
+    pentagon = Body("a", _polygon(5, 0, 0, 1, 0.1), moving)
+    square = Body("b", _polygon(4, 3, 0.2, 1, 0.3), staying)
+    return Scene([pentagon, square], time=(0, 10))
 
 
 def _spins_apart(size: int, rng: Random) -> Scene:
@@ -166,36 +166,36 @@ def _sparse(size: int, rng: Random) -> Scene:
     return Scene(_crowd(size, rng, 0.06, 1), time=(0, 1))
 
 
-def _turning(size: int, rng: Random) -> Scene:
-    """Convex bodies that turn about their middles and drift."""
+def _turning_bodies(size: int, rng: Random, radius: float, terms: int) -> list[Body]:
+    """Return convex bodies that turn about their middles and drift.
+
+    Args:
+        size: the number of bodies.
+        rng: a random generator.
+        radius: their radius, in cells of width 1.
+        terms: the degree of the half-tangents in time: with 2, the rates of turning change.
+    """
     bodies = []
     for name, left, below in _places(size):
         x, y = left + 0.5, below + 0.5
         motion = Rigid(
-            [0, rng.uniform(-1, 1)],
+            [0, *(rng.uniform(-1, 1) for _ in range(terms))],
             x=[0, rng.uniform(-0.2, 0.2)],
             y=[0, rng.uniform(-0.2, 0.2)],
             pivot=(x, y),
         )
-        outline = _polygon(rng.randint(3, 6), x, y, 0.3, rng.uniform(0, 6))
+        outline = _polygon(rng.randint(3, 6), x, y, radius, rng.uniform(0, 6))
         bodies.append(Body(name, outline, motion))
-    return Scene(bodies, time=(0, 1))
+    return bodies
+
+
+def _turning(size: int, rng: Random) -> Scene:
+    return Scene(_turning_bodies(size, rng, 0.3, terms=1), time=(0, 1))
 
 
 def _turning_faster(size: int, rng: Random) -> Scene:
     """Larger convex bodies whose rates of turning grow."""
-    bodies = []
-    for name, left, below in _places(size):
-        x, y = left + 0.5, below + 0.5
-        motion = Rigid(
-            [0, rng.uniform(-1, 1), rng.uniform(-1, 1)],
-            x=[0, rng.uniform(-0.2, 0.2)],
-            y=[0, rng.uniform(-0.2, 0.2)],
-            pivot=(x, y),
-        )
-        outline = _polygon(rng.randint(3, 6), x, y, 0.45, rng.uniform(0, 6))
-        bodies.append(Body(name, outline, motion))
-    return Scene(bodies, time=(0, 4))
+    return Scene(_turning_bodies(size, rng, 0.45, terms=2), time=(0, 4))
 
 
 def _turning_stars(size: int, rng: Random) -> Scene:
@@ -276,29 +276,32 @@ these scenes the time of a question has that of the building.
 """
 
 
-def _far(what: str) -> list[Body]:
-    """Return a body that is far from a crowd, and is unlike its bodies in one way."""
-    square = _polygon(4, AWAY, AWAY, 1, 0)
-    pivot = (AWAY, AWAY)
-    slow = Translation([0, "1/7"])
-    known: dict[str, Callable[[], Body]] = {
-        "65 vertices": lambda: Body("far", _polygon(65, AWAY, AWAY, 1, 0)),
-        "a turn": lambda: Body("far", square, Rigid([0, "1/7"], pivot=pivot)),
-        "a parabola": lambda: Body("far", square, Translation([0, "1/7"], [0, 0, "1/9"])),
-        "a disc": lambda: Body("far", [pivot], radius=1),
-        "a hole": lambda: Body("far", _polygon(4, AWAY, AWAY, 3, 0), holes=[square]),
-        "two pieces": lambda: Body(
-            "far", square, Pieces([("1/2", slow), (None, Translation(["1/14"]))])
-        ),
-        "a third": lambda: Body("far", [("1/3", AWAY), (2, AWAY), (1, AWAY + 1)]),
-    }
-    return [known[what]()] if what != NOTHING else []
+def _far_square(motion: Translation | Rigid | Pieces) -> Body:
+    """Return a square that is far from a crowd."""
+    return Body("far", _polygon(4, AWAY, AWAY, 1, 0), motion)
 
 
-NOTHING: Final = "nothing"
-BESIDE: Final = (
-    NOTHING, "65 vertices", "a turn", "a parabola", "a disc", "a hole", "two pieces", "a third",
-)  # fmt: skip
+def _far_disc() -> Body:
+    return Body("far", [(AWAY, AWAY)], radius=1)
+
+
+def _far_hole() -> Body:
+    hole = _polygon(4, AWAY, AWAY, 1, 0)
+    return Body("far", _polygon(4, AWAY, AWAY, 3, 0), holes=[hole])
+
+
+SLOW: Final = Translation([0, "1/7"])
+
+BESIDE: Final[dict[str, Callable[[], Body] | None]] = {
+    "nothing": None,
+    "65 vertices": lambda: Body("far", _polygon(65, AWAY, AWAY, 1, 0)),
+    "a turn": lambda: _far_square(Rigid([0, "1/7"], pivot=(AWAY, AWAY))),
+    "a parabola": lambda: _far_square(Translation([0, "1/7"], [0, 0, "1/9"])),
+    "a disc": _far_disc,
+    "a hole": _far_hole,
+    "two pieces": lambda: _far_square(Pieces([("1/2", SLOW), (None, Translation(["1/14"]))])),
+    "a third": lambda: Body("far", [("1/3", AWAY), (2, AWAY), (1, AWAY + 1)]),
+}
 """What is far from a sparse crowd: a body that is unlike those of the crowd in this."""
 
 PLANS: Final = "plans among obstacles"
@@ -332,7 +335,8 @@ def measured(name: str, size: int, seed: int) -> Asked:
 def _scene(name: str, size: int, seed: int) -> Scene:
     if name in BESIDE:  # the crowd is the same, whatever is beside it
         crowd = _crowd(size, Random(f"beside {size} {seed}"), 0.06, 1)
-        return Scene([*crowd, *_far(name)], time=(0, 1))
+        far = BESIDE[name]
+        return Scene(crowd if far is None else [*crowd, far()], time=(0, 1))
     return SCENES[name](size, Random(f"{name} {size} {seed}"))
 
 

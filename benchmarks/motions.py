@@ -123,8 +123,11 @@ def _engine(site: Path) -> Iterator[_Engine]:
     with subprocess.Popen(
         [sys.executable, "-P", str(SCRIPT)],
         env={**os.environ, "PYTHONPATH": str(site)},
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
-    ) as process:  # fmt: skip
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+    ) as process:
         try:
             yield _Engine(process, site)
         finally:

@@ -73,8 +73,15 @@ class Scene:
     """
 
     __slots__ = (
-        "bodies", "epoch", "exact_end", "exact_start", "ignoring", "kept_rows", "lost", "units"
-    )  # fmt: skip
+        "bodies",
+        "epoch",
+        "exact_end",
+        "exact_start",
+        "ignoring",
+        "kept_rows",
+        "lost",
+        "units",
+    )
 
     def __init__(
         self,

@@ -65,8 +65,11 @@ B = 2.0**511
 # The point, at (2.75, -2.5) B, is on the line x + y = B / 4 of the edge, between its ends. With
 # n = (B, B), 4.25 B, its x without the displacement, times B overflows: 4 B^2 = 2^1024.
 OVERFLOWING = (
-    (4.25 * B, -2.5 * B), (-1.5 * B, 0.0), (2.0 * B, -1.75 * B), (3.0 * B, -2.75 * B),
-)  # fmt: skip
+    (4.25 * B, -2.5 * B),
+    (-1.5 * B, 0.0),
+    (2.0 * B, -1.75 * B),
+    (3.0 * B, -2.75 * B),
+)
 AIMED = {
     "rounding of 1 U": (patch.object(separation, "ROUNDING", 2.0**-53), ROUNDED),
     "infinite extents": (

@@ -204,9 +204,16 @@ def test_rounding_of_2_units_in_zeros_is_found():
         assert PARTS["vertices"](4000, 1).wrong
 
 
-TOUCHING_1 = [float.fromhex(f) for f in (
-    "0x1.0040449df8af1p+0", "-0x1p-53", "-0x1.002137df11d78p+1", "-0x1p-53", "0x1.00022b202b000p+0"
-)]  # fmt: skip
+TOUCHING_1 = [
+    float.fromhex(f)
+    for f in (
+        "0x1.0040449df8af1p+0",
+        "-0x1p-53",
+        "-0x1.002137df11d78p+1",
+        "-0x1p-53",
+        "0x1.00022b202b000p+0",
+    )
+]
 """About (s^2 - 1)^2: not positive at 1, but 4 U when it is evaluated a little before 1."""
 
 
