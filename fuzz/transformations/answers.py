@@ -130,8 +130,8 @@ def _contact(side: Side, contact: Contact | None) -> Answer:
 def _incidences(side: Side, pairs: Iterable[ContactPoint]) -> list[_Incidence]:
     """Return the incidences in terms of the old scene, each once.
 
-    New vertices make incidences that the old scene does not list: of two edges, and of an edge
-    with its own end.
+    New vertices make incidences that the old scene does not list: of two edges, of an edge with
+    its own end, and of an edge that is a point at this time, where only its ends are listed.
     """
     found: dict[frozenset[Feature], _Incidence] = {}
     for pair in pairs:
@@ -154,7 +154,8 @@ def _incidences(side: Side, pairs: Iterable[ContactPoint]) -> list[_Incidence]:
         if before is None or before.normal is None:
             point = side.mirror.point(pair.point)
             found[features] = _Incidence(features, point, normal, is_signed)
-    return sorted(found.values(), key=lambda i: sorted(i.features))
+    kept = [i for i in found.values() if not _is_at_both_ends(side, i.features, found)]
+    return sorted(kept, key=lambda i: sorted(i.features))
 
 
 def _is_end(side: Side, v: Feature, w: Feature) -> bool:
@@ -162,10 +163,26 @@ def _is_end(side: Side, v: Feature, w: Feature) -> bool:
     if v.kind == w.kind or v.body != w.body:
         return False
     edge, vertex = (v, w) if v.kind == "edge" else (w, v)
-    new = {n for n, f in side.edges.items() if f == edge}
+    return vertex in _ends(side, edge)
+
+
+def _is_at_both_ends(
+    side: Side, features: frozenset[Feature], found: Mapping[frozenset[Feature], _Incidence]
+) -> bool:
+    """Return True for an edge and a vertex that touches both ends of it: the edge is a point."""
+    edge, vertex = sorted(features)
+    if edge.kind == vertex.kind:
+        return False
+    return all(frozenset({end, vertex}) in found for end in _ends(side, edge))
+
+
+def _ends(side: Side, edge: Feature) -> set[Feature]:
+    """Return the two vertices of the old scene between which an edge of it lies."""
     bodies = {body.name: body for body in side.scene.bodies}
-    ends = {(name, e) for name, i in new for e in (i, bodies[name].end_of_edge(i))}
-    return any(side.vertices[end] == vertex for end in ends)
+    pieces = [number for number, feature in side.edges.items() if feature == edge]
+    ends = {(name, e) for name, i in pieces for e in (i, bodies[name].end_of_edge(i))}
+    features = {side.vertices[end] for end in ends}
+    return {feature for feature in features if feature.kind == "vertex"}
 
 
 def _pairs(side: Side, case: Case) -> list[tuple[str, str]]:
