@@ -16,20 +16,23 @@ from typing import Final, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import FINE, AlgebraicNumber
+from exactpt.kernel.budget import check_budget
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
+    derivative,
     evaluate,
     greatest_common_divisor,
     primitive,
     quotient,
     range_on,
     scale,
+    sign_at,
+    sign_on,
     square_free,
     subtract,
     trimmed,
 )
 from exactpt.kernel.numbers import QQ, ZZ, ceil, exponent, floor, is_square, isqrt, power_of_two
-from exactpt.kernel.sturm import count_roots, sturm_sequence
 
 RELATIVE_BITS: Final = 8
 """Binary digits of the first bounds of the square root of a rational."""
@@ -127,15 +130,26 @@ def _root_near(
     same number again and again, and each step of refinement doubles its digits.
     """
     f = square_free(f)
-    sequence = sturm_sequence(f)
+    slope = derivative(f)
     while True:
         low, high = bounds()
         if low == high:
             return AlgebraicNumber(low)
         low, high = _rounded_out(low, high)
-        if count_roots(sequence, low, high) == 1 and evaluate(f, low) != 0:
+        if _is_only_root(f, slope, low, high):
             return AlgebraicNumber.exact_root(f, low, high)
         number.refine()
+
+
+def _is_only_root(f: IntPoly, slope: IntPoly, low: QQ, high: QQ) -> bool:
+    """Return True if f has one root above low and up to high, by signs alone; else perhaps one.
+
+    A function whose derivative has one sign has at most one root. The polynomials here have up to
+    a hundred coefficients of thousands of digits: their Sturm sequences take seconds.
+    """
+    at_low, at_high = sign_at(f, low), sign_at(f, high)
+    is_crossed = at_low not in (0, at_high)
+    return is_crossed and sign_on(slope, low, high) != 0
 
 
 def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
@@ -191,33 +205,65 @@ def _norm_in_y(p: IntPoly, n: IntPoly, d: IntPoly) -> IntPoly:
 
 
 def _norm(p: IntPoly, g: IntPoly) -> QQ:
-    """Return the product of g over the complex roots of p, by Euclid's algorithm.
+    """Return the product of g over the complex roots of p: their resultant, by p's leading part.
 
-    With leading coefficients a of p and b of g, and degrees k and m, it is
-    (-1)^(k m) b^k / a^m times the product of p over the roots of g.
+    With the leading coefficient a of p and the degree m of g, the resultant is a^m times it.
     """
-    over, under = [QQ(c) for c in g], [QQ(c) for c in p]
-    product = QQ(1)
-    while True:
-        over = _remainder(over, under)
-        if not over:
-            return QQ(0)
-        k, m = len(under) - 1, len(over) - 1
-        product *= over[-1] ** k
-        if m == 0:
-            return product
-        product *= (-1) ** (k * m) / under[-1] ** m
-        over, under = under, over
+    if not g:
+        return QQ(0)
+    return QQ(_resultant(p, g), p[-1] ** (len(g) - 1))
 
 
-def _remainder(f: list[QQ], g: list[QQ]) -> list[QQ]:
-    rest = f[:]
+def _resultant(f: IntPoly, g: IntPoly) -> ZZ:
+    """Return the resultant of two polynomials that are not zero, by their subresultants.
+
+    Each remainder of integer coefficients is divided by the factor that it is known to have, so
+    the digits grow with the degree alone. Euclid's algorithm on rationals spends its time on
+    greatest common divisors of numbers.
+
+    Source: H. Cohen, *A Course in Computational Algebraic Number Theory*, algorithm 3.3.7.
+    """
+    sign = 1
+    if len(f) < len(g):
+        f, g = g, f
+        sign = _sign_of_exchange(f, g)
+    lead, height = ZZ(1), ZZ(1)
+    while len(g) > 1:
+        check_budget()
+        drop = len(f) - len(g)
+        sign *= _sign_of_exchange(f, g)
+        known = lead * height**drop
+        rest = _pseudo_remainder(f, g)
+        f, g = g, tuple(c // known for c in rest)
+        if not g:
+            return ZZ(0)  # a common factor
+        lead = f[-1]
+        height = _power_over(lead, height, drop)
+    last: ZZ = _power_over(g[0], height, len(f) - 1)
+    return last if sign > 0 else -last
+
+
+def _sign_of_exchange(f: IntPoly, g: IntPoly) -> int:
+    """Return the factor of the resultant when the polynomials change places."""
+    return -1 if (len(f) - 1) * (len(g) - 1) % 2 else 1
+
+
+def _power_over(base: ZZ, under: ZZ, exponent: int) -> ZZ:
+    """Return base^k / under^(k - 1), an integer in subresultants, for an exponent k >= 0."""
+    if exponent == 0:
+        return under
+    power: ZZ = base**exponent // under ** (exponent - 1)
+    return power
+
+
+def _pseudo_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
+    """Return the remainder of f times lead(g)^(deg f - deg g + 1) by g."""
+    rest = list(f)
+    lead = g[-1]
     while len(rest) >= len(g):
-        factor = rest[-1] / g[-1]
-        shift = len(rest) - len(g)
+        top = rest.pop()
+        shift = len(rest) - (len(g) - 1)
+        rest = [lead * c for c in rest]
         for i, c in enumerate(g[:-1]):
-            rest[shift + i] -= factor * c
-        rest.pop()
-    while rest and rest[-1] == 0:
-        rest.pop()
-    return rest
+            rest[shift + i] -= top * c
+    return trimmed(rest)
