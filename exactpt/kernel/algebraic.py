@@ -27,6 +27,7 @@ from exactpt.kernel.integer_polynomial import (
     greatest_common_divisor,
     positive_remainder,
     sign_at,
+    sign_near,
     sign_on,
     square_free,
 )
@@ -47,6 +48,10 @@ if TYPE_CHECKING:
 
 __all__ = ["AlgebraicNumber", "linear_root", "multiple_before", "rational_between"]
 
+COARSE: Final = power_of_two(-30)
+"""Down to this width a number is refined before a sign at it is asked of polynomials."""
+QUADRATIC: Final = 3
+"""The number of coefficients of a polynomial with two roots: others become linear at them."""
 FINE: Final = power_of_two(-100)
 """Interval width below which two overlapping numbers are tested for equality by a gcd."""
 
@@ -106,6 +111,13 @@ class AlgebraicNumber(RealNumber):
         """Return the sign of f at this number."""
         if self.exact_low == self.exact_high:
             return sign_at(f, self.exact_low)
+        if len(f) <= 1:
+            return sign(f[0]) if f else 0
+        if len(self.exact_polynomial) > QUADRATIC:
+            # Most signs are not 0, and a few steps show them. A common factor takes longer to find.
+            s = self._sign_down_to(f, COARSE)
+            if s:
+                return s
         if len(f) >= len(self.exact_polynomial):
             f = positive_remainder(f, self.exact_polynomial)
         if len(f) <= 1:
@@ -121,13 +133,17 @@ class AlgebraicNumber(RealNumber):
             and sign_at(common, self.exact_low) * sign_at(common, self.exact_high) < 0
         ):
             return 0
-        while not s:
+        return self._sign_down_to(f, QQ(0))
+
+    def _sign_down_to(self, f: IntPoly, width: QQ) -> int:
+        """Return the sign of f here, or 0 if it is not known when this number is to this width."""
+        while True:
+            s = sign_on(f, self.exact_low, self.exact_high)
+            s = s or sign_near(f, self.exact_low, self.exact_high)
+            if s or self.exact_high - self.exact_low <= width:
+                return s
             check_budget()
             self.refine()
-            if self.exact_low == self.exact_high:
-                return sign_at(f, self.exact_low)
-            s = sign_on(f, self.exact_low, self.exact_high)
-        return s
 
     def sign_after(self, f: IntPoly) -> int:
         """Return the sign of f just after this number: 0 if and only if f is the zero polynomial.

@@ -28,12 +28,13 @@ from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, floor
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Rigid
-from exactpt.motion.turned_angle import angle_of, bits_for, bound_on
+from exactpt.motion.turned_angle import angle_of, bits_for, bound_on, bounds_on_parts
 
 Pose = tuple[Polynomial, Polynomial, Polynomial]
 """x, y and the angle in radians."""
 
-_PARTS: Final = 8
+_HALVINGS: Final = 3
+"""Of the interval into parts: the coefficients of E are taken on each of eight."""
 _FIRST: Final = QQ(0)
 _LAST: Final = QQ(1)
 
@@ -56,7 +57,7 @@ def angle_error(turn: Rigid, a: QQ, b: QQ, angle: Polynomial, error: QQ) -> QQ:
     h, theta = turn.half_turn(unit), angle(unit)
     slope = h.derivative()
     change = _primitive(2 * slope - theta.derivative() * (ONE + h * h))
-    most = max(bound_on(change, QQ(i, _PARTS), QQ(i + 1, _PARTS)) for i in range(_PARTS))
+    most = max(bounds_on_parts(change, _HALVINGS))
     factor = 1 + 2 * bound_on(h, _FIRST, _LAST) * bound_on(slope, _FIRST, _LAST)
     return _error_at(turn, a, angle.exact_at(a), error) + most * factor
 

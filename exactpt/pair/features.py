@@ -95,15 +95,27 @@ class FeaturePair:
 
     @cached_property
     def _from_first(self) -> IntPoly:
-        return dot(self._along, vector(self.ends[0], self.v))
+        return dot(self._direction, vector(self.ends[0], self.v))
 
     @cached_property
     def _from_last(self) -> IntPoly:
-        return dot(self._along, vector(self.v, self.ends[1]))
+        return dot(self._direction, vector(self.v, self.ends[1]))
+
+    @cached_property
+    def _direction(self) -> tuple[IntPoly, IntPoly]:
+        """The vector of the edge, times a positive factor that is small.
+
+        The ends of an edge of a turning body have one denominator w. With its square as a factor,
+        signs are those of a longer polynomial, which has w in common with the orientation.
+        """
+        a, b = self.ends
+        if a.w == b.w:
+            return subtract(b.x, a.x), subtract(b.y, a.y)
+        return self._along
 
     @cached_property
     def _along(self) -> tuple[IntPoly, IntPoly]:
-        """The vector of the edge, times a positive factor."""
+        """The vector of the edge, times the denominators of both ends."""
         return vector(*self.ends)
 
     def at_distance(self, squared: QQ) -> IntPoly:

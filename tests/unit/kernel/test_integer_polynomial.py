@@ -32,11 +32,13 @@ from exactpt.kernel.integer_polynomial import (
     range_on,
     scale,
     sign_at,
+    sign_near,
+    sign_on,
     square_free,
     subtract,
     trimmed,
 )
-from exactpt.kernel.numbers import ZZ
+from exactpt.kernel.numbers import QQ, ZZ
 from fuzz.references.real_roots import exact, real_roots, value
 
 nonzero = int_polys.filter(bool)
@@ -198,10 +200,10 @@ def test_the_zero_polynomial_and_constants():
 def shares_a_large_divisor_with_its_derivative():
     """Square-free, of 40 bits, and its value at N = 2^(40 + SLACK) has a gcd above N with f'(N).
 
-    f = 2^39 (1 + t) + c2 t^2 + c3 t^3 + t^4, with c2 and c3 such that a prime of 34 bits
+    f = 2^39 (1 + t) + c2 t^2 + c3 t^3 + t^4, with c2 and c3 such that a prime of 37 bits
     divides both values.
     """
-    q, n = 2**34 - 41, 2 ** (40 + SLACK)
+    q, n = 2**37 - 25, 2 ** (40 + SLACK)
     value, slope = 2**39 * (1 + n) + n**4, 2**39 + 4 * n**3
     c3 = (2 * value - n * slope) * pow(n**3, -1, q) % q
     c2 = -(value + c3 * n**3) * pow(n**2, -1, q) % q
@@ -209,20 +211,54 @@ def shares_a_large_divisor_with_its_derivative():
 
 
 def test_square_free_where_the_values_at_a_point_do_not_show_it(monkeypatch):
-    asked = []
-    gcd_of_polynomials = integer_polynomial.greatest_common_divisor
+    divided = []
     monkeypatch.setattr(
         integer_polynomial,
-        "greatest_common_divisor",
-        lambda f, g: asked.append(f) or gcd_of_polynomials(f, g),
+        "positive_remainder",
+        lambda f, g: divided.append(f) or positive_remainder(f, g),
     )
     f = shares_a_large_divisor_with_its_derivative()
 
     assert square_free(f) == f
-    assert asked == [f]
-    asked.clear()
+    assert divided[0] == f
+    divided.clear()
     assert square_free((ZZ(5), ZZ(0), ZZ(0), ZZ(7))) == (5, 0, 0, 7)
-    assert not asked
+    assert not divided
+
+
+@given(f=nonzero.map(as_int_poly), low=st.fractions(-9, 9), width=st.fractions(0, 1))
+def test_signs_near_a_point_are_those_at_points(f, low, width):
+    high = low + width
+
+    found = sign_near(f, QQ(low), QQ(high))
+
+    if found:
+        points = [QQ(low + width * k / 4) for k in range(5)]
+        assert {sign_at(f, t) for t in points} == {found}
+
+
+def test_signs_near_a_point_where_terms_cancel():
+    """(t - 1000)^8 + 1 is positive; its terms at 1000 are of 10^24, and cancel."""
+    eighth = as_int_poly([1])
+    for _ in range(8):
+        eighth = multiply(eighth, as_int_poly([-1000, 1]))
+    f = add(eighth, as_int_poly([1]))
+    low, high = QQ(999) + QQ(9, 10), QQ(1000) + QQ(1, 10)
+
+    assert sign_near(f, low, high) == 1
+    assert sign_on(f, low, high) == 0
+
+
+@given(f=nonzero, g=nonzero, h=nonzero)
+def test_common_divisors_of_products(f, g, h):
+    f, g, h = map(as_int_poly, (f, g, h))
+
+    common = greatest_common_divisor(multiply(f, h), multiply(g, h))
+
+    alone = greatest_common_divisor(f, g)
+    assert len(common) - 1 == len(alone) - 1 + len(h) - 1
+    assert positive_remainder(multiply(f, h), common) == ()
+    assert positive_remainder(multiply(g, h), common) == ()
 
 
 @given(f=int_polys.filter(lambda f: len(f) > 1), scale=st.integers(0, 80))
