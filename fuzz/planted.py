@@ -20,9 +20,10 @@ from exactpt.certificates import certifier, coefficients, incidences, perturbati
 from exactpt.certificates import first_root as filters
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
-from exactpt.filters import starts, straight, windows
+from exactpt.filters import straight, windows
 from exactpt.filters.exactly import Entry
 from exactpt.filters.features import Filter
+from exactpt.filters.starts import Starts
 from exactpt.filters.straight import Passage
 from exactpt.filters.windows import Window
 from exactpt.indices import CertificateId, HalfEdge
@@ -525,7 +526,7 @@ PLANTED: Final[dict[str, Mistake]] = {
     "containment at the start missed by doubles": Mistake(
         "Boundaries are compared, and what is inside them is not.",
         Edit(
-            starts,
+            Starts,
             "are_disjoint",
             "pair.is_second_outside() and swapped.is_second_outside()",
             "True",

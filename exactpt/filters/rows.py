@@ -33,6 +33,8 @@ from typing import Final, NamedTuple, TypeAlias
 from librt.vecs import append, pop, vec
 from mypy_extensions import i64
 
+from exactpt.filters.blocks import Blocks
+
 STRAIGHT: Final[i64] = 0
 CURVED: Final[i64] = 1
 TURNING: Final[i64] = 2
@@ -177,9 +179,13 @@ class Table:
         radius: at least the radius, with what the question adds to it; larger by at most 2 U of it.
         together: rows with the same number, unless it is 0, keep their places beside each other.
         deforms: 1 if vertices of the piece may touch its own edges, else 0.
+        vertex_blocks, edge_blocks: those of the places of pieces of many vertices, by the number of
+            the first place; made when they are needed.
     """
 
     def __init__(self) -> None:
+        self.vertex_blocks: dict[int, Blocks] = {}
+        self.edge_blocks: dict[int, Blocks] = {}
         self.xs = vec[float]()
         self.ys = vec[float]()
         self.own = vec[float]()
@@ -208,6 +214,7 @@ class Table:
     def copy(self) -> Table:
         """Return a table of the same rows, to which others can be added."""
         other = Table()
+        other.vertex_blocks, other.edge_blocks = self.vertex_blocks.copy(), self.edge_blocks.copy()
         other.xs, other.ys, other.own = self.xs[:], self.ys[:], self.own[:]
         other.general = self.general[:]
         other.origin, other.terms = self.origin[:], self.terms[:]
@@ -232,6 +239,9 @@ class Table:
     def cut(self, mark: Mark) -> None:
         """Remove what has been added since a mark."""
         n = mark.rows
+        for blocks in (self.vertex_blocks, self.edge_blocks):
+            for place in [place for place in blocks if place >= mark.places]:
+                del blocks[place]
         self.xs, self.ys = cut_floats(self.xs, mark.places), cut_floats(self.ys, mark.places)
         self.own, self.general = (
             cut_floats(self.own, mark.own),

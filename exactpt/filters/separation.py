@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from mypy_extensions import i64
 
+from exactpt.filters.blocks import FEW
 from exactpt.filters.models import ROUNDING
 from exactpt.filters.rounding import INFINITY, SLACK, TINY
 from exactpt.filters.rows import Table
@@ -38,6 +39,8 @@ from exactpt.filters.straight import RelativeMotion, larger_size, relative_motio
 def are_separated(table: Table, a: i64, b: i64, low: float, high: float) -> bool:
     """Return True if a line certainly separates two pieces during [low, high].
 
+    It is not tried for a piece of many vertices: blocks of them are compared in less time.
+
     Args:
         table: the pieces.
         a: a piece in straight motion, without radius.
@@ -45,6 +48,8 @@ def are_separated(table: Table, a: i64, b: i64, low: float, high: float) -> bool
         low: the begin of a window within the spans of both pieces.
         high: its end.
     """
+    if table.size[a] > FEW or table.size[b] > FEW:
+        return False
     motion = relative_motion(table, a, b)
     gap = Gap(table, motion, a, b, low, high)
     if gap.is_across(motion.wx, motion.wy):

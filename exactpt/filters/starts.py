@@ -38,6 +38,7 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
+from exactpt.filters.blocks import BLOCK, FEW, Blocks
 from exactpt.filters.boxes import strips, zeros
 from exactpt.filters.features import Filter
 from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
@@ -50,42 +51,136 @@ FEW_EDGE_PAIRS: Final[i64] = 256
 """Number of pairs of edges up to which all of them are compared; more are compared by strips."""
 
 
-def are_disjoint(kept: Filter, i: i64, j: i64, t: float) -> bool:
-    """Return True if two pieces certainly have no common point at a time."""
-    table, p, q = kept.table, kept.p, kept.q
-    p.fill(table, i, t, 0.0)
-    q.fill(table, j, t, 0.0)
-    distance = table.radius[i] + table.radius[j]
-    if kept.apart(p, q, distance):
-        return True
-    if distance != 0.0:
-        return False
-    pair, swapped = Pair(table, i, j, p, q), Pair(table, j, i, q, p)
-    is_small = table.size[i] * table.size[j] <= FEW_FEATURE_PAIRS
-    if is_small and (pair.has_line_between() or swapped.has_line_between()):
-        return True
-    if pair.edges_may_meet():
-        return False
-    return pair.is_second_outside() and swapped.is_second_outside()
+class Starts:
+    """Pieces at one time. What was computed of a piece serves all pairs of it in a row.
+
+    Args:
+        table: the pieces.
+        t: the time.
+    """
+
+    def __init__(self, table: Table, t: float) -> None:
+        self._filter = Filter(table)
+        self._first = Snapshot(table, t)
+        self._second = Snapshot(table, t)
+
+    def are_disjoint(self, i: i64, j: i64) -> bool:
+        """Return True if two pieces certainly have no common point at the time."""
+        first, second = self._first, self._second
+        first.take(i)
+        second.take(j)
+        table = first.table
+        distance = table.radius[i] + table.radius[j]
+        if self._filter.apart(first.window, second.window, distance):
+            return True
+        if distance != 0.0:
+            return False
+        pair, swapped = Pair(first, second), Pair(second, first)
+        is_small = table.size[i] * table.size[j] <= FEW_FEATURE_PAIRS
+        if is_small and (pair.has_line_between() or swapped.has_line_between()):
+            return True
+        if pair.edges_may_meet():
+            return False
+        return pair.is_second_outside() and swapped.is_second_outside()
+
+
+class Snapshot:
+    """A piece at one time, with what does not depend on the piece beside it.
+
+    Args:
+        table: the pieces.
+        t: the time.
+
+    Attributes:
+        table: as given.
+        piece: the number of the piece.
+        window: its window.
+    """
+
+    def __init__(self, table: Table, t: float) -> None:
+        self.table = table
+        self.piece: i64 = -1
+        self.window = Window()
+        self._t = t
+        self._blocks: Blocks | None = None
+        self._parts: vec[i64] | None = None
+        self._rings: i64 = -1
+
+    def take(self, piece: i64) -> None:
+        """Become that of another piece."""
+        if piece == self.piece:
+            return
+        self.piece = piece
+        self.window.fill(self.table, piece, self._t, 0.0)
+        self._blocks, self._parts, self._rings = None, None, -1
+
+    def has_ring(self) -> bool:
+        """See `has_ring`."""
+        if self._rings < 0:
+            self._rings = 1 if has_ring(self.table, self.piece) else 0
+        return self._rings == 1
+
+    def vertices_of_parts(self) -> vec[i64]:
+        """See `vertices_of_parts`."""
+        if self._parts is None:
+            self._parts = vertices_of_parts(self.table, self.piece)
+        return self._parts
+
+    def edges_near(self, left: float, right: float, bottom: float, top: float) -> vec[i64]:
+        """Return the edges whose blocks may meet a box; all edges, if they are few.
+
+        The box of a block contains those of `edge_box`, with their margins.
+        """
+        found = vec[i64]()
+        count = self.table.edges[self.piece]
+        edge: i64 = 0
+        while edge < count:
+            is_far = count > FEW and not self._edge_blocks().may_meet(
+                edge // BLOCK, left, right, bottom, top
+            )
+            after = min(edge + BLOCK, count)
+            while edge < after and not is_far:
+                found = append(found, edge)
+                edge += 1
+            edge = after
+        return found
+
+    def _edge_blocks(self) -> Blocks:
+        """Return the blocks of all edges."""
+        blocks = self._blocks
+        if blocks is None:
+            blocks = Blocks()
+            table, rows, off = self.table, self.window.rows, 2.0 * self.window.rho
+            edge = table.edge[self.piece]
+            after = edge + table.edges[self.piece]
+            while edge < after:
+                left, right, bottom, top = edge_box(rows, table.begins[edge], table.ends[edge], off)
+                blocks.add(left, right, bottom, top)
+                edge += 1
+            self._blocks = blocks
+        return blocks
 
 
 class Pair:
     """Two pieces at one time.
 
     Attributes:
+        first, second: the pieces.
         table: the table.
-        i, j: the pieces.
+        i, j: the numbers of the pieces.
         p, q: their windows.
         rho: a bound of the errors of both together.
     """
 
-    def __init__(self, table: Table, i: i64, j: i64, p: Window, q: Window) -> None:
-        self.table = table
-        self.i = i
-        self.j = j
-        self.p = p
-        self.q = q
-        self.rho = p.rho + q.rho
+    def __init__(self, first: Snapshot, second: Snapshot) -> None:
+        self.first = first
+        self.second = second
+        self.table = first.table
+        self.i = first.piece
+        self.j = second.piece
+        self.p = first.window
+        self.q = second.window
+        self.rho = self.p.rho + self.q.rho
 
     def has_line_between(self) -> bool:
         """Return True if a line along an edge of the first piece certainly separates them."""
@@ -110,8 +205,7 @@ class Pair:
 
         Edges that meet have boxes that meet, and each of them the box of the other piece.
         """
-        edges = near_edges(self.table, self.i, self.p, self.q)
-        others = near_edges(self.table, self.j, self.q, self.p)
+        edges, others = near_edges(self.first, self.q), near_edges(self.second, self.p)
         n: i64 = len(edges)
         m: i64 = len(others)
         if n * m > FEW_EDGE_PAIRS:
@@ -178,9 +272,9 @@ class Pair:
 
         It must be known that no edges meet: then a part is outside if one vertex of it is.
         """
-        if not has_ring(self.table, self.i):
+        if not self.first.has_ring():
             return True
-        vertices = vertices_of_parts(self.table, self.j)
+        vertices = self.second.vertices_of_parts()
         k: i64 = 0
         while k < len(vertices):
             if not self.is_outside(vertices[k]):
@@ -196,12 +290,14 @@ class Pair:
         """
         table, p, q = self.table, self.p.rows, self.q.rows
         x, y = q[ROW * v], q[ROW * v + Y0]
+        # The ray is a box: whatever crosses it has a block that meets it.
+        edges = self.first.edges_near(x, INFINITY, y, y)
         is_outside = True
-        e = table.edge[self.i]
-        end = e + table.edges[self.i]
-        while e < end:
+        k: i64 = 0
+        while k < len(edges):
+            e = table.edge[self.i] + edges[k]
             a, b = table.begins[e], table.ends[e]
-            e += 1
+            k += 1
             if max(p[ROW * a], p[ROW * b]) < x:
                 continue
             is_up = p[ROW * b + Y0] > y
@@ -227,18 +323,21 @@ def span_along(rows: vec[float], n: i64, nx: float, ny: float) -> tuple[float, f
     return low, high, terms
 
 
-def near_edges(table: Table, k: i64, p: Window, q: Window) -> vec[i64]:
-    """Return the edges of piece k, with the window p, that meet the box of the other piece."""
-    found = vec[i64]()
+def near_edges(snapshot: Snapshot, q: Window) -> vec[i64]:
+    """Return the edges of a piece that meet the box of the other piece, of the window q."""
+    table, p = snapshot.table, snapshot.window
     off = 2.0 * (p.rho + q.rho)
-    first = table.edge[k]
-    e: i64 = 0
-    while e < table.edges[k]:
-        a, b = table.begins[first + e], table.ends[first + e]
-        left, right, bottom, top = edge_box(p.rows, a, b, off)
+    far = 2.0 * q.rho  # the blocks are grown by the errors of the piece itself
+    candidates = snapshot.edges_near(q.left - far, q.right + far, q.bottom - far, q.top + far)
+    found = vec[i64]()
+    first = table.edge[snapshot.piece]
+    k: i64 = 0
+    while k < len(candidates):
+        e = first + candidates[k]
+        left, right, bottom, top = edge_box(p.rows, table.begins[e], table.ends[e], off)
         if not (left > q.right or right < q.left or bottom > q.top or top < q.bottom):
-            found = append(found, e)
-        e += 1
+            found = append(found, candidates[k])
+        k += 1
     return found
 
 

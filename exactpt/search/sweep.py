@@ -41,7 +41,7 @@ from exactpt.filters.rows import (
     append_box,
 )
 from exactpt.filters.separation import are_separated
-from exactpt.filters.starts import are_disjoint
+from exactpt.filters.starts import Starts
 from exactpt.kernel.budget import check_budget
 
 BOXES_A_LOOK: Final[i64] = 512
@@ -515,7 +515,7 @@ def near_at_start(
     """
     is_at_double = low == high and not exact_only
     found: set[tuple[int, int]] = set()
-    windows = Filter(table)
+    starts = Starts(table, low)
     k: i64 = 0
     while k < len(pairs.one):
         one, two = pairs.one[k], pairs.two[k]
@@ -524,7 +524,7 @@ def near_at_start(
         if one == two:  # a body does not touch itself at the start
             k += 1
             continue
-        if pairs.enter[k] <= high and not (is_at_double and are_disjoint(windows, one, two, low)):
+        if pairs.enter[k] <= high and not (is_at_double and starts.are_disjoint(one, two)):
             i, j = table.body[one], table.body[two]
             found.add((int(min(i, j)), int(max(i, j))))
         k += 1

@@ -18,10 +18,9 @@ from math import cos, lcm, pi, sin
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
-from exactpt.filters.features import Filter
 from exactpt.filters.rounding import U
 from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Errors, Table
-from exactpt.filters.starts import are_disjoint
+from exactpt.filters.starts import Starts
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from fuzz.adversaries.boxes import show
 from fuzz.adversaries.pieces import KINDS, TURNS, Piece, Point, Polynomial, power, value
@@ -93,7 +92,7 @@ def _ask(
     rng.shuffle(pieces)
     table = Table()
     i, j = (piece.add_to(table, k, t - 1.0, t + 1.0) for k, piece in enumerate(pieces))
-    claim = are_disjoint(Filter(table), i, j, t)
+    claim = Starts(table, t).are_disjoint(i, j)
     first, second = (Shape(piece.at(rational(t)), piece.edges) for piece in pieces)
     found.rows += 1
     found.near += not is_random

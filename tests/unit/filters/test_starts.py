@@ -6,9 +6,8 @@ from unittest.mock import patch
 import pytest
 
 from exactpt.filters import starts
-from exactpt.filters.features import Filter
 from exactpt.filters.rows import EXACT, STRAIGHT, Piece, Table
-from exactpt.filters.starts import Pair, are_disjoint
+from exactpt.filters.starts import Pair, Starts
 from fuzz.adversaries.pieces import KINDS
 from fuzz.adversaries.starts import attack
 from fuzz.power.edits import Edit
@@ -39,8 +38,8 @@ def add(table, *rings, at=(0.0, 0.0), scale=1.0, radius=0.0, chain=False):
 
 def answer(table):
     """What the filter says of the pieces 0 and 1, in both orders."""
-    found = are_disjoint(Filter(table), 0, 1, 0.0)
-    assert are_disjoint(Filter(table), 1, 0, 0.0) == found
+    found = Starts(table, 0.0).are_disjoint(0, 1)
+    assert Starts(table, 0.0).are_disjoint(1, 0) == found
     return found
 
 
@@ -135,7 +134,7 @@ MISTAKES = {
     "edges to the right": Edit(Pair, "is_outside", ") < x:", ") > x:"),
     "other parts": Edit(Pair, "is_second_outside", "k < len(vertices)", "k < 1"),
     "rings": Edit(starts, "has_ring", "step < 0 or", "step < -99 or"),
-    "the first in the second": Edit(starts, "are_disjoint", " and swapped.is_second_outside()", ""),
+    "the first in the second": Edit(Starts, "are_disjoint", " and swapped.is_second_outside()", ""),
     "one side of an edge": Edit(Pair, "may_meet", "of_c != 0 and of_c == of_d", "of_c != 0"),
     "edges near a box": Edit(
         starts, "near_edges", "2.0 * (p.rho + q.rho)", "-2.0 * (p.rho + q.rho)"

@@ -354,7 +354,10 @@ PLANTED = {
         "left - self.least_x, right - self.most_x",
     ),
     "edges with one end outside left out": Edit(
-        PASSAGE, "near_edges", "(xs[i] < left and xs[j] < left)", "(xs[i] < left or xs[j] < left)"
+        PASSAGE,
+        "add_near_edges",
+        "(xs[i] < left and xs[j] < left)",
+        "(xs[i] < left or xs[j] < left)",
     ),
     "speed errors left out": Edit(
         straight, "relative_motion", "table.speed_error[a] + table.speed_error[b]", "0.0"
