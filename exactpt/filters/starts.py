@@ -13,7 +13,11 @@ have no common point if
        |  +---+  |         crosses an even number of edges. Rings of holes count like others. A
        +---------+         piece that has no ring contains nothing.
 
-With radii only the first test is made.
+With radii, two pieces are disjoint if their cores are farther apart than R, the sum of the radii.
+Then no two edges come within R of each other, and nothing of one is inside the other. Two edges
+do not if their boxes are more than R apart; if one is on one side of the line of the other, or
+beyond an end of it, by more than R; for two points, if their distance is larger. A corner beside a
+corner may be left to exact arithmetic.
 
 *Errors.* With half = 0 a window (`exactpt.filters.windows`) has the vertices at one time, each
 within rho of its row, in x and in y. Below, rho is the sum of those of both pieces. Then an edge
@@ -22,8 +26,11 @@ the orientation u x z is off by at most
 
     |u| dz + |z| du + 2 du dz    with |.| the sum of the sizes of x and y,
 
-and by 8 U of the sizes of its two products, which are rounded after two differences. A product
-with a normal n is off by |n| rho, whatever the normal, and by 4 U of the sizes of its two terms.
+and by 8 U of the sizes of its two products, which are rounded after two differences. So is the
+product u . z. A vertex is farther than R from the line of u if |u x z| is larger than R times the
+length of u, which is at most 3 rho longer than computed (each coordinate is off by 2 rho). A
+product with a normal n is off by |n| rho, whatever the normal, and by 4 U of the sizes of its two
+terms. The length of n is at most |n|. The distance of two points is off by less than 2 rho.
 
 *What is inside* is decided with the rows, as if they were exact. For let all vertices move straight
 from their rows to where they truly are. They stay within rho, so that, by 3, no edges meet on the
@@ -33,6 +40,7 @@ of a vertex and of the ends of an edge are doubles, and compared without an erro
 Each test is positive: it fails for a NaN. So a piece that is out of range is disjoint from none.
 """
 
+import math
 from typing import Final
 
 from librt.vecs import append, vec
@@ -73,8 +81,6 @@ class Starts:
         distance = table.radius[i] + table.radius[j]
         if self._filter.apart(first.window, second.window, distance):
             return True
-        if distance != 0.0:
-            return False
         pair, swapped = Pair(first, second), Pair(second, first)
         is_small = table.size[i] * table.size[j] <= FEW_FEATURE_PAIRS
         if is_small and (pair.has_line_between() or swapped.has_line_between()):
@@ -170,6 +176,7 @@ class Pair:
         i, j: the numbers of the pieces.
         p, q: their windows.
         rho: a bound of the errors of both together.
+        reach: at least the sum of their radii; 0 if they have none.
     """
 
     def __init__(self, first: Snapshot, second: Snapshot) -> None:
@@ -181,6 +188,7 @@ class Pair:
         self.p = first.window
         self.q = second.window
         self.rho = self.p.rho + self.q.rho
+        self.reach = (self.table.radius[self.i] + self.table.radius[self.j]) * SLACK
 
     def has_line_between(self) -> bool:
         """Return True if a line along an edge of the first piece certainly separates them."""
@@ -194,7 +202,7 @@ class Pair:
             low, high, terms = span_along(p, size, nx, ny)
             other_low, other_high, other_terms = span_along(q, other_size, nx, ny)
             off = (abs(nx) + abs(ny)) * self.rho + 4.0 * U * (terms + other_terms)
-            margin = 2.0 * off * SLACK + TINY
+            margin = (2.0 * off + (abs(nx) + abs(ny)) * self.reach) * SLACK + TINY
             if other_low > high + margin or low > other_high + margin:
                 return True
             e += 1
@@ -205,7 +213,8 @@ class Pair:
 
         Edges that meet have boxes that meet, and each of them the box of the other piece.
         """
-        edges, others = near_edges(self.first, self.q), near_edges(self.second, self.p)
+        edges = near_edges(self.first, self.q, self.reach)
+        others = near_edges(self.second, self.p, self.reach)
         n: i64 = len(edges)
         m: i64 = len(others)
         if n * m > FEW_EDGE_PAIRS:
@@ -222,8 +231,9 @@ class Pair:
 
     def _edges_may_meet_by_strips(self, edges: vec[i64], others: vec[i64]) -> bool:
         boxes = vec[float]()
-        boxes = boxes_of_edges(self.table, self.i, self.p, edges, self.rho, boxes)
-        boxes = boxes_of_edges(self.table, self.j, self.q, others, self.rho, boxes)
+        off = 2.0 * self.rho + self.reach
+        boxes = boxes_of_edges(self.table, self.i, self.p, edges, off, boxes)
+        boxes = boxes_of_edges(self.table, self.j, self.q, others, off, boxes)
         n: i64 = len(edges)
         met = strips(boxes, n)
         k: i64 = 0
@@ -234,38 +244,83 @@ class Pair:
         return False
 
     def may_meet(self, edge: i64, other: i64) -> bool:
-        """Return True unless two edges are certainly apart.
+        """Return True unless two edges are certainly apart, by more than the radii.
 
-        They are if the line of one has the other one on one side, or, for edges on one line, if
-        their boxes are apart.
+        They are if the line of one has the other one on one side, or, with radii, if one is beyond
+        an end of the other, or two points are far from each other. For edges on one line it is
+        their boxes that are apart.
         """
         table, p, q = self.table, self.p.rows, self.q.rows
         e, f = table.edge[self.i] + edge, table.edge[self.j] + other
         a, b = table.begins[e], table.ends[e]
         c, d = table.begins[f], table.ends[f]
-        of_c, of_d = self.side(p, a, b, q, c), self.side(p, a, b, q, d)
-        if of_c != 0 and of_c == of_d:
+        if self.is_on_one_side(p, a, b, q, c, d) or self.is_on_one_side(q, c, d, p, a, b):
             return False
-        of_a, of_b = self.side(q, c, d, p, a), self.side(q, c, d, p, b)
-        if of_a != 0 and of_a == of_b:
+        if self.reach != 0.0 and (
+            self.is_beyond_an_end(p, a, b, q, c, d)
+            or self.is_beyond_an_end(q, c, d, p, a, b)
+            or (a == b and c == d and self.are_far(a, c))
+        ):
             return False
-        off = 2.0 * self.rho
+        off = 2.0 * self.rho + self.reach
         left, right, bottom, top = edge_box(p, a, b, off)
         low_x, high_x, low_y, high_y = edge_box(q, c, d, off)
         return not (left > high_x or right < low_x or bottom > high_y or top < low_y)
 
-    def side(self, p: vec[float], a: i64, b: i64, q: vec[float], v: i64) -> i64:
-        """Return the side of an edge on which a vertex is: 1 is left, -1 right, 0 not certain."""
+    def is_on_one_side(self, p: vec[float], a: i64, b: i64, q: vec[float], c: i64, d: i64) -> bool:
+        """Return True if both ends of an edge are certainly on one side of the line of another."""
+        of_c = self.side(p, a, b, q, c, self.reach)
+        return of_c != 0 and of_c == self.side(p, a, b, q, d, self.reach)
+
+    def side(self, p: vec[float], a: i64, b: i64, q: vec[float], v: i64, reach: float) -> i64:
+        """Return the side of an edge on which a vertex is: 1 is left, -1 right, 0 not certain.
+
+        It is on a side only if it is farther from the line than a distance.
+        """
         i, j, k = ROW * a, ROW * b, ROW * v
         ux, uy = p[j] - p[i], p[j + Y0] - p[i + Y0]
         zx, zy = q[k] - p[i], q[k + Y0] - p[i + Y0]
-        left, right = ux * zy, uy * zx
+        bound = self.bound(ux, uy, zx, zy, abs(ux * zy) + abs(uy * zx), reach)
+        across = ux * zy - uy * zx
+        if across > bound:
+            return 1
+        return -1 if across < -bound else 0
+
+    def is_beyond_an_end(
+        self, p: vec[float], a: i64, b: i64, q: vec[float], c: i64, d: i64
+    ) -> bool:
+        """Return True if an edge is certainly beyond one end of another edge, seen along that."""
+        first = self.is_behind(p, a, b, q, c) and self.is_behind(p, a, b, q, d)
+        return first or (self.is_behind(p, b, a, q, c) and self.is_behind(p, b, a, q, d))
+
+    def is_behind(self, p: vec[float], a: i64, b: i64, q: vec[float], v: i64) -> bool:
+        """Return True if a vertex is certainly behind the begin of an edge, by the radii."""
+        i, j, k = ROW * a, ROW * b, ROW * v
+        ux, uy = p[j] - p[i], p[j + Y0] - p[i + Y0]
+        zx, zy = q[k] - p[i], q[k + Y0] - p[i + Y0]
+        bound = self.bound(ux, uy, zx, zy, abs(ux * zx) + abs(uy * zy), self.reach)
+        return ux * zx + uy * zy < -bound
+
+    def bound(
+        self, ux: float, uy: float, zx: float, zy: float, terms: float, reach: float
+    ) -> float:
+        """Return what the size of a product of u and z must exceed, for its sign to be certain.
+
+        And for the part of z across u, or along u, to be longer than a distance.
+        """
         sizes = abs(ux) + abs(uy) + abs(zx) + abs(zy)
         off = 2.0 * self.rho * (sizes + 2.0 * self.rho)
-        bound = (off + 8.0 * U * (abs(left) + abs(right))) * SLACK + TINY
-        if left - right > bound:
-            return 1
-        return -1 if left - right < -bound else 0
+        far = 0.0
+        if reach != 0.0:
+            far = reach * (math.sqrt(ux * ux + uy * uy) + 3.0 * self.rho)
+        return (off + 8.0 * U * terms + far) * SLACK + TINY
+
+    def are_far(self, v: i64, w: i64) -> bool:
+        """Return True if two vertices are certainly farther apart than the sum of the radii."""
+        p, q = self.p.rows, self.q.rows
+        i, j = ROW * v, ROW * w
+        dx, dy = q[j] - p[i], q[j + Y0] - p[i + Y0]
+        return math.sqrt(dx * dx + dy * dy) > (self.reach + 2.0 * self.rho) * SLACK + TINY
 
     def is_second_outside(self) -> bool:
         """Return True if all of the second piece is certainly outside of the first one.
@@ -303,7 +358,7 @@ class Pair:
             is_up = p[ROW * b + Y0] > y
             if is_up == (p[ROW * a + Y0] > y):
                 continue
-            side = self.side(p, a, b, q, v)
+            side = self.side(p, a, b, q, v, 0.0)
             if side == 0:
                 return False
             if (side > 0) == is_up:
@@ -323,11 +378,17 @@ def span_along(rows: vec[float], n: i64, nx: float, ny: float) -> tuple[float, f
     return low, high, terms
 
 
-def near_edges(snapshot: Snapshot, q: Window) -> vec[i64]:
-    """Return the edges of a piece that meet the box of the other piece, of the window q."""
+def near_edges(snapshot: Snapshot, q: Window, reach: float) -> vec[i64]:
+    """Return the edges of a piece that come within reach of the box of the other piece.
+
+    Args:
+        snapshot: the piece.
+        q: the window of the other piece.
+        reach: at least the sum of the radii.
+    """
     table, p = snapshot.table, snapshot.window
-    off = 2.0 * (p.rho + q.rho)
-    far = 2.0 * q.rho  # the blocks are grown by the errors of the piece itself
+    off = 2.0 * (p.rho + q.rho) + reach
+    far = 2.0 * q.rho + reach  # the blocks are grown by the errors of the piece itself
     candidates = snapshot.edges_near(q.left - far, q.right + far, q.bottom - far, q.top + far)
     found = vec[i64]()
     first = table.edge[snapshot.piece]
@@ -342,13 +403,13 @@ def near_edges(snapshot: Snapshot, q: Window) -> vec[i64]:
 
 
 def boxes_of_edges(
-    table: Table, k: i64, p: Window, edges: vec[i64], rho: float, boxes: vec[float]
+    table: Table, k: i64, p: Window, edges: vec[i64], off: float, boxes: vec[float]
 ) -> vec[float]:
-    """Return the boxes, and after them those of some edges of piece k, with the window p."""
+    """Return the boxes, and after them those of some edges of piece k, grown by a distance."""
     n: i64 = 0
     while n < len(edges):
         e = table.edge[k] + edges[n]
-        left, right, bottom, top = edge_box(p.rows, table.begins[e], table.ends[e], 2.0 * rho)
+        left, right, bottom, top = edge_box(p.rows, table.begins[e], table.ends[e], off)
         boxes = append_box(boxes, left, right, bottom, top)
         n += 1
     return boxes

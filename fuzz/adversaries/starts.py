@@ -3,7 +3,8 @@
 ``python -m fuzz.adversaries.starts --rows 1000000 --seed 1``. A row is a pair of pieces at one
 time. Most are aimed: a vertex of one is on a vertex or on an edge of the other, edges overlap, one
 piece or a part of it is just inside the other, or in a hole of it; then one is moved by a few
-roundings, or not at all. Stated errors are used in full. If the true pieces have a point in common,
+roundings, or not at all. Half of the disjoint ones get radii whose sum is their distance but for a
+few roundings. Stated errors are used in full. If the true pieces have a point in common,
 the filter must not claim that they are disjoint. The last column is how often it claims so if they
 are: of pairs that are placed at random, it should be nearly always.
 """
@@ -11,6 +12,7 @@ are: of pairs that are placed at random, it should be nearly always.
 from __future__ import annotations
 
 import argparse
+import math
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import pairwise
@@ -26,6 +28,11 @@ from fuzz.adversaries.boxes import show
 from fuzz.adversaries.pieces import KINDS, TURNS, Piece, Point, Polynomial, power, value
 
 __all__ = ["Found", "attack", "share_a_point"]
+
+ROUNDED: Final = 0.5
+"""The part of disjoint pairs that get radii."""
+SMALL: Final = 100
+"""Pairs of vertices up to which the distance of two shapes is computed."""
 
 Edges: TypeAlias = list[tuple[int, int]]
 Grid: TypeAlias = list[tuple[int, int]]
@@ -92,18 +99,60 @@ def _ask(
     rng.shuffle(pieces)
     table = Table()
     i, j = (piece.add_to(table, k, t - 1.0, t + 1.0) for k, piece in enumerate(pieces))
-    claim = Starts(table, t).are_disjoint(i, j)
     first, second = (Shape(piece.at(rational(t)), piece.edges) for piece in pieces)
+    is_common = share_a_point(first, second)
+    is_rounded = not is_common and rng.random() < ROUNDED and _is_small(first, second)
+    if is_rounded:
+        squared = _squared_distance(first, second)
+        table.radius[i], table.radius[j] = _radii_near(rng, squared)
+        is_common = squared <= (rational(table.radius[i]) + rational(table.radius[j])) ** 2
+    claim = Starts(table, t).are_disjoint(i, j)
     found.rows += 1
-    found.near += not is_random
-    if share_a_point(first, second):
+    found.near += is_rounded or not is_random
+    if is_common:
         found.common += 1
         if claim:
             found.wrong += 1
-            found.first = found.first or f"{first} and {second} at {t}"
-    elif is_random:
+            radii = f" with radii {table.radius[i]}, {table.radius[j]}" if is_rounded else ""
+            found.first = found.first or f"{first} and {second} at {t}{radii}"
+    elif is_random and not is_rounded:
         found.random += 1
         found.told += claim
+
+
+def _is_small(p: Shape, q: Shape) -> bool:
+    return len(p.points) * len(q.points) <= SMALL
+
+
+def _radii_near(rng: Random, squared: QQ) -> tuple[float, float]:
+    """Return two radii whose sum is a distance, but for a few roundings, or less or more."""
+    distance = math.sqrt(nearest_float(squared))
+    steps = rng.choice((0, 1, -1, 2, -2, 3, -3, 20, -20, 1000, -1000))
+    both = distance * rng.choice((1.0, 1.0, 1.0, 1.0, 0.9, 1.1)) * (1.0 + steps * U)
+    one = both * rng.choice((0.0, 0.5, rng.random()))
+    return one, both - one
+
+
+def _squared_distance(p: Shape, q: Shape) -> QQ:
+    """Return the squared distance of two shapes that have no common point."""
+    return min(
+        _squared_to_edge(v, one.points[i], one.points[j])
+        for one, other in ((p, q), (q, p))
+        for v in other.points
+        for i, j in one.edges
+    )
+
+
+def _squared_to_edge(v: Point, a: Point, b: Point) -> QQ:
+    """Return the squared distance of a point from an edge."""
+    ux, uy = b[0] - a[0], b[1] - a[1]
+    zx, zy = v[0] - a[0], v[1] - a[1]
+    length, along = ux * ux + uy * uy, ux * zx + uy * zy
+    if along <= 0 or not length:
+        return zx * zx + zy * zy
+    if along >= length:
+        return (v[0] - b[0]) ** 2 + (v[1] - b[1]) ** 2
+    return (ux * zy - uy * zx) ** 2 / length
 
 
 def share_a_point(p: Shape, q: Shape) -> bool:
