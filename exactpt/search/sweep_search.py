@@ -257,6 +257,7 @@ class Sweep:
 
     Attributes:
         slabs, pairs, compared: numbers of slabs, of pairs of rows and of features so far.
+        starts: number of the pairs of bodies that may touch at the start.
     """
 
     def __init__(
@@ -276,7 +277,7 @@ class Sweep:
         self._deadline = deadline
         self._low: float | None = None
         self._in_progress: Scan | Decider | None = None
-        self.slabs = self.pairs = self.compared = 0
+        self.slabs = self.pairs = self.compared = self.starts = 0
 
     @cached_property
     def _first(self) -> Slab:
@@ -292,7 +293,9 @@ class Sweep:
         """Return the pairs i < j of bodies that may touch at the start, sorted."""
         span = self._rows.span
         table, pairs = self._rows.table, self._first.pairs
-        return near_at_start(table, pairs, span.low, span.after, exact_only=self._exact_only)
+        near = near_at_start(table, pairs, span.low, span.after, exact_only=self._exact_only)
+        self.starts = len(near)
+        return near
 
     def first_after_start(self) -> LinearContact | None:
         """Return the first contact of bodies that do not touch at the start.
@@ -413,6 +416,7 @@ def stats_of(scene: Scene, sweep: Sweep) -> dict[str, object]:
         "vertices": scene.vertex_count,
         "events": 0,
         "slabs": sweep.slabs,
+        "starts": sweep.starts,
         "pairs": sweep.pairs,
         "certificates": sweep.compared,
         "skipped": 0,

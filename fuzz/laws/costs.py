@@ -35,6 +35,7 @@ __all__ = [
     "one_body_in_pieces",
     "one_far_body",
     "one_fast_body",
+    "one_frame_around",
     "one_large_body",
 ]  # fmt: skip
 
@@ -47,11 +48,12 @@ SHARE_OF_CHANGES: Final = 1.5
 MARGIN: Final = 8
 """Number by which a count may grow beyond that, for each bystander."""
 
-READ: Final = 2
+READ: Final = 4
 """Number of looks at the clock, beyond that, for each vertex of bystanders after four of each."""
 
-COUNTED: Final = ("certificates", "exact")
-"""Counts of the command: pairs of features or certificates, and exact decisions."""
+COUNTED: Final = ("starts", "certificates", "exact")
+"""Counts of the command: pairs of bodies that are compared exactly at the start, pairs of features
+or certificates, and exact decisions of these."""
 
 CHANGED: Final = 8
 """Number of bodies whose changes are counted."""
@@ -102,6 +104,22 @@ def one_large_body(scene: Scene) -> tuple[Scene, int]:
     size, far = _size_and_far(scene)
     corners = [(far + size * QQ(k, 100), far + size * QQ(k, 100) ** 2) for k in range(100)]
     body = Body("bystander", [tuple(map(fraction, p)) for p in corners])
+    return Scene([*scene.bodies, body], (scene.start, scene.end)), 1
+
+
+def one_frame_around(scene: Scene) -> tuple[Scene, int]:
+    """Add a body at rest around all others: a square with a round hole of 100 vertices.
+
+    The hole is ten times as large as the scene. Its vertices are (1 - t^2, 2 t) / (1 + t^2) times
+    its radius, and the opposite points.
+    """
+    _, far = _size_and_far(scene)
+    turns = [QQ(2 * k - 49, 50) for k in range(50)]
+    half = [(far * (1 - t * t) / (1 + t * t), far * 2 * t / (1 + t * t)) for t in turns]
+    hole = [*half, *((-x, -y) for x, y in half)]
+    square = [(-2 * far, -2 * far), (2 * far, -2 * far), (2 * far, 2 * far), (-2 * far, 2 * far)]
+    outline, inside = ([tuple(map(fraction, p)) for p in ring] for ring in (square, hole))
+    body = Body("bystander", outline, holes=[inside])
     return Scene([*scene.bodies, body], (scene.start, scene.end)), 1
 
 

@@ -28,6 +28,7 @@ from fuzz.laws.costs import (
     one_body_in_pieces,
     one_far_body,
     one_fast_body,
+    one_frame_around,
     one_large_body,
 )
 from fuzz.laws.distances import clearance_is_the_distance, surroundings_are_of_each_pair
@@ -523,6 +524,7 @@ LAWS: Final[dict[str, Law]] = {
             ("far bodies", many_far_bodies),
             ("fast body", one_fast_body),
             ("large body", one_large_body),
+            ("frame around", one_frame_around),
             ("body in pieces", one_body_in_pieces),
             ("later end", later_end),
         )
