@@ -137,10 +137,10 @@ class NearFeatures:
             made.update(zip(new, of_new, strict=True))
         return [made[k] for k in numbers.tolist()]
 
-    def within(self, reach: QQ) -> Indices:
+    def within(self, reach: QQ, parts: int = PARTS) -> Indices:
         """Return the pairs whose features may come within a distance of each other.
 
-        They do only where their boxes do, during one of the parts of the interval.
+        They do only where their boxes do, during one of so many equal parts of the interval.
         """
         by = enclosing_floats(reach * power_of_two(-self._normalization.scale[0]))[1]
         low, high = (
@@ -150,7 +150,7 @@ class NearFeatures:
         n, m = len(self._piece_pair.first), len(self._piece_pair.second)
         (e, e_to), (f, f_to) = (np.array(body.edges, int).reshape(-1, 2).T for body in self._two)
         found: list[Indices] = []
-        for first, last in pairwise(np.linspace(low, high, PARTS + 1).tolist()):
+        for first, last in pairwise(np.linspace(low, high, parts + 1).tolist()):
             check_budget()
             boxes = self._boxes.during(first, last)
             p, q = grown(boxes[:n], by), boxes[n:]

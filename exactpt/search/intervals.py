@@ -24,6 +24,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_rigid
+from exactpt.motion.track import Track
 from exactpt.pair.features import feature_pairs
 from exactpt.pair.near_features import NearFeatures
 from exactpt.pair.overlap import bodies_meet
@@ -34,6 +35,8 @@ from exactpt.search.query import Selection
 
 FEW: Final = 100
 """Maximum number of pairs of vertices of two bodies whose features are compared exactly at once."""
+PARTS_OF_FEW: Final = 8
+"""Number of parts of a time interval in which boxes of few features are compared."""
 
 
 @final
@@ -209,16 +212,26 @@ def _times(a: Body, b: Body, piece_pair: PiecePair, *, corners: bool) -> Iterato
 def _near_pairs(a: Body, b: Body, piece_pair: PiecePair) -> Indices:
     """Return the numbers of the pairs of features that may come to the sum of the radii.
 
-    All if they are few. For each vertex its edges, if that is 0: equal times take the first one's
-    form.
+    All if they are few and no body turns: the roots of short polynomials take less time than
+    boxes. Where a body turns, the times of a pair are roots of long polynomials. For each vertex
+    its edges, if the sum is 0: equal times take the first one's form.
     """
     n, m, of_a, of_b = a.size, b.size, len(a.edges), len(b.edges)
-    order = np.arange(n * m + of_a * m + n * of_b)
+    reach = a.exact_radius + b.exact_radius
     if n * m > FEW:
-        order = NearFeatures(a, b, piece_pair).within(a.exact_radius + b.exact_radius)
-    if a.exact_radius or b.exact_radius:
+        order = NearFeatures(a, b, piece_pair).within(reach)
+    elif _turns(piece_pair.first) or _turns(piece_pair.second):
+        order = NearFeatures(a, b, piece_pair).within(reach, PARTS_OF_FEW)
+    else:
+        order = np.arange(n * m + of_a * m + n * of_b)
+    if reach:
         return order
     corners, of_second = order < n * m, order >= (n + of_a) * m
     edges = order[~corners & ~of_second]
     edges = edges[np.lexsort((edges // m, edges % m))]
     return np.concatenate([order[of_second], edges, order[corners]])
+
+
+def _turns(tracks: tuple[Track, ...]) -> bool:
+    """Return True if the coordinates of vertices are rational functions, not polynomials."""
+    return any(len(track.w) > 1 for track in tracks)

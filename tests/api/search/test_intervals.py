@@ -2,7 +2,18 @@
 
 import pytest
 
-from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation, contact_intervals, contacts
+from exactpt import (
+    Body,
+    InputError,
+    Pieces,
+    Rigid,
+    Scene,
+    Spin,
+    Translation,
+    contact_intervals,
+    contacts,
+)
+from exactpt.pair.features import FeaturePair
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 WALL = Body("wall", [(10, -9), (10, 9)])
@@ -122,3 +133,35 @@ def test_bug_the_order_of_the_names_changed_names_and_polynomials():
     assert [i.to_json() for i in contacts(wide)] == [i.to_json() for i in forth]
     assert forth == back
     assert (back[0].a, back[0].b) == ("a", "b")
+
+
+def test_a_rounded_bar_that_turns_touches_a_disc_when_it_points_at_it():
+    """The end of the bar is at a distance of 2 from its pivot, 1 from a disc's centre 3 above it.
+
+    That is the sum of the radii, when half the angle is 45 degrees: its tangent t is 1.
+    """
+    bar = Body("bar", [(0, 0), (2, 0)], Rigid([0, 1]), radius="1/2")
+    disc = Body("disc", [(0, 3)], radius="1/2")
+
+    assert of(bar, disc, time=(0, 9)) == [(1, 1)]
+
+
+def test_features_of_bodies_that_turn_are_compared_exactly_only_where_they_are_near(monkeypatch):
+    """Squares turn beside each other: 16 pairs of vertices, 32 of a vertex and an edge.
+
+    The left one takes a quarter of a turn about its corner (0, 0) into y <= 0, while the right one
+    stays in y >= 1 (its lowest vertex there is its pivot). Exact comparisons took 20 s of such a
+    turn.
+    """
+    compared = []
+    exactly = FeaturePair.at_distance
+    monkeypatch.setattr(
+        FeaturePair, "at_distance", lambda pair, d: compared.append(pair) or exactly(pair, d)
+    )
+    left = Body("left", [(0, 0), (1, 0), (1, -1), (0, -1)], Spin(-1, (0, 0)), radius="1/9")
+    right = Body("right", [(1, 1), (2, 1), (2, 2), (1, 2)], Spin(1, (1, 1)), radius="1/9")
+    scene = Scene([left, right], time=(0, "3/2"))
+
+    assert contact_intervals(scene, "left", "right") == []
+    pieces = len({*left.breakpoints_between(0, "3/2"), *right.breakpoints_between(0, "3/2")}) + 1
+    assert len(compared) < pieces * (16 + 32) / 4
