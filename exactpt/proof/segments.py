@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -37,6 +38,16 @@ KINDS: Final = ("*.proof", "*.scene.json", "run.chain")
 """The names of the files of such a folder."""
 
 
+@contextmanager
+def _naming(folder: Path) -> Iterator[None]:
+    """Name the folder in errors of the file system."""
+    try:
+        yield
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise InputError(f"{folder}: cannot be written: {reason}") from None
+
+
 @final
 class ProofFolder(Observer):
     """An observer that writes ``1.proof``, ``2.proof``, ... and ``1.scene.json``, ... to a folder.
@@ -44,7 +55,7 @@ class ProofFolder(Observer):
     ``run.chain`` has a line for each part as soon as it is written (docs/proofs.md).
 
     Args:
-        folder: the folder; it is made if it does not exist.
+        folder: the folder; it is made with the first proof if it does not exist.
 
     Raises:
         InputError: if it cannot be made, or contains proofs.
@@ -54,12 +65,12 @@ class ProofFolder(Observer):
 
     def __init__(self, folder: str | Path) -> None:
         self._folder = Path(folder)
-        try:
+        with _naming(self._folder):
+            is_new = not self._folder.exists()
             self._folder.mkdir(exist_ok=True)
             is_used = any(any(self._folder.glob(kind)) for kind in KINDS)
-        except (OSError, ValueError) as error:
-            reason = error.strerror if isinstance(error, OSError) else error
-            raise InputError(f"{folder}: cannot be written: {reason}") from None
+            if is_new:
+                self._folder.rmdir()  # it can be made; a scene that is refused leaves none behind
         if is_used:
             raise InputError(f"{folder}: contains proofs")
         self._written = 0
@@ -128,6 +139,8 @@ class ProofFolder(Observer):
 
     def _write(self, scene: bytes, lines: Iterable[str]) -> None:
         self._written += 1
+        with _naming(self._folder):
+            self._folder.mkdir(exist_ok=True)
         path = self._folder / f"{self._written}.proof"
         with writing(path.with_suffix(".scene.json"), new=True) as write:
             write(scene)
@@ -147,10 +160,7 @@ class ProofFolder(Observer):
         if self._written == 1:
             create(path, f"{CHAIN}\n{line}\n".encode()).close()
         else:
-            try:
-                with open_regular(path, writable=True) as file:
-                    file.seek(0, os.SEEK_END)
-                    file.write(f"{line}\n".encode())
-            except OSError as error:
-                raise InputError(f"{self._folder}: cannot be written: {error.strerror}") from None
+            with _naming(self._folder), open_regular(path, writable=True) as file:
+                file.seek(0, os.SEEK_END)
+                file.write(f"{line}\n".encode())
         self._before = line

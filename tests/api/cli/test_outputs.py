@@ -98,6 +98,7 @@ def test_folder_with_files_of_a_proof_is_refused(here, name):
 
 @pytest.mark.parametrize("name", ["1.scene.json", "1.proof", "run.chain"])
 def test_file_that_appears_in_a_folder_of_proofs_is_left_alone(here, name):
+    (here / "proofs").mkdir()
     simulation = Simulation(SCENE, proof=here / "proofs")
     simulation.run(1)
     (here / "proofs" / name).write_text("precious\n")

@@ -177,6 +177,16 @@ def test_command(tmp_path):
         CliRunner().invoke(cli, arguments, catch_exceptions=False)
 
 
+def test_a_refused_scene_leaves_no_folder(tmp_path):
+    """The folder was made, and stayed empty; one that was there before stays as it was."""
+    round_ = Scene([Body("ball", [(0, 0)], radius=1)])
+    (tmp_path / "old").mkdir()
+    for folder in (tmp_path / "new", tmp_path / "old"):
+        with pytest.raises(InputError, match="'ball' has a radius"):
+            Simulation(round_, proof=folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["old"]
+
+
 def test_where_no_folder_can_be(tmp_path):
     (tmp_path / "file").write_text("")
     for path in (tmp_path / "file", tmp_path / "none" / "folder", "\0"):

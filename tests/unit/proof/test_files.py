@@ -202,7 +202,7 @@ def test_degrees_that_no_checker_takes_are_refused(tmp_path):
             list(exactpt.Simulation(scene, proof=tmp_path / "folder").run())
         with pytest.raises(proof_scene.NoProofError, match="degree above 64"):
             proof_scene.Scene(json.dumps(exactpt.scene.written.to_json(scene)))
-    assert [path.name for path in tmp_path.iterdir()] == ["folder"]
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_out_of_budget_nothing_is_left(scene, tmp_path):
