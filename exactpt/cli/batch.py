@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -25,7 +26,7 @@ from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import print_error
 from exactpt.errors import InputError
 from exactpt.files import MAX_BYTES
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, show
 from exactpt.workers.work import MAX_JOBS
 
 
@@ -96,6 +97,16 @@ def batch(
     """
     from exactpt.batch import Options, run
 
+    first_contact_only = {
+        "--tiling": tiling != "auto",
+        "--method": method != "auto",
+        "--ignore": bool(ignore),
+        "--after-start": after_start,
+        "--between": bool(between),
+        "--exact-only": exact_only,
+    }
+    given = [option for option, is_given in first_contact_only.items() if is_given]
+    _check_question(every=every, distance=distance, first_contact_only=given)
     most = max_bytes()
     options = Options(
         every=every,
@@ -132,6 +143,19 @@ def batch(
         scenes_in_all = counted(done.scenes, "scene")
         raise InputError(f"{done.failures} of {scenes_in_all} without a result; {done.first}")
     return 0
+
+
+def _check_question(*, every: bool, distance: QQ | None, first_contact_only: Sequence[str]) -> None:
+    """Refuse options that cannot be combined, and a negative distance, by the options' names."""
+    if every and distance is not None:
+        raise InputError("--all: --within asks another question; give one of the two")
+    if distance is not None and distance < 0:
+        raise InputError(f"--within: a distance is not negative: {show(distance)}")
+    if first_contact_only and (every or distance is not None):
+        option = "--all" if every else "--within"
+        raise InputError(
+            f"{option}: {first_contact_only[0]} is supported only for the first contact"
+        )
 
 
 def _interrupted(output: Path, done: int, whole: int) -> str:

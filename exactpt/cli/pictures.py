@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -27,6 +27,9 @@ from exactpt.cli.progress import estimating, progress
 from exactpt.cli.terminal import answer_in_words, print_output
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
+
+if TYPE_CHECKING:
+    from exactpt.scene.scene import Scene
 
 
 @click.command()
@@ -112,6 +115,8 @@ def draw(
         raise InputError("--at: a plot of the clearance is of all times")
     with within_budget(max_seconds), naming_at():
         given = load(scene)
+        if gap is not None:
+            _check_clearance(given, gap)
         with (
             progress(given, "drawing", quiet=quiet) as reached,
             estimating("frames", quiet=quiet or output.suffix not in (".gif", ".mp4")) as done,
@@ -171,3 +176,13 @@ def demo(output: Path, *, show: bool) -> int:
     if show and click.launch(str(output.resolve())):
         raise InputError(f"no browser to open {output} in")
     return 0
+
+
+def _check_clearance(scene: Scene, gap: tuple[str, str]) -> None:
+    """Refuse names of bodies that have no distance, before anything is drawn."""
+    from exactpt.pair.pieces_of_two import two_bodies
+
+    try:
+        two_bodies(scene, *gap)
+    except InputError as error:
+        raise InputError(f"--clearance: {error}") from None

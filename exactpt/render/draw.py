@@ -69,8 +69,10 @@ def draw(
     _check_film(path, seconds, fps)
     if poses < 0:
         raise InputError(f"poses: not a number of them: {poses}")
-    if below is not None and (gap is None or below < 0):
-        raise InputError("below: a distance >= 0, for a plot of the clearance")
+    if below is not None and gap is None:
+        raise InputError(f"below: {show(below)} is for a plot of the clearance, and none is asked")
+    if below is not None and below < 0:
+        raise InputError(f"below: a distance is not negative: {show(below)}")
     if ending in MOVIES and (at is not None or gap is not None):
         raise InputError(f"{path}: a film has all times, and no plot")
     if fan and (tiling is None or (gap is not None and ending != ".html")):
@@ -90,7 +92,7 @@ def draw(
                 return
             first = _shown_first(film, at)
             distance = None if gap is None else clearance(_shown(film), *gap)
-            page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance)
+            page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance, below=below)
             write_atomically(path, page)
         return
     light = _paper(theme) if ending == ".png" else theme

@@ -46,6 +46,7 @@ def page_of(
     at: AlgebraicNumber | QQ | None = None,
     theme: str = "auto",
     gap: Clearance | None = None,
+    below: QQ | None = None,
 ) -> str:
     """Return the animation of a film as an HTML document.
 
@@ -55,6 +56,7 @@ def page_of(
         at: the time shown first; by default the start.
         theme: "light", "dark" or "auto" (the reader's preference).
         gap: a distance that is plotted above the scrubber.
+        below: a distance that is marked in its plot.
     """
     data = json.dumps(data_of(film, at=at), separators=(",", ":"))
     parts = {
@@ -62,7 +64,7 @@ def page_of(
         "summary": escape(_summary(film)),
         "theme": "" if theme == "auto" else f' data-theme="{theme}"',
         "plotted": "" if gap is None else " plotted",
-        "plot": "" if gap is None else strip_of(plot_of(gap)),
+        "plot": "" if gap is None else strip_of(plot_of(gap, below)),
         "style": _variables() + _asset("page.css"),
         # Inside a script element only its closing tag has to be escaped.
         "data": data.replace("<", "\\u003c"),

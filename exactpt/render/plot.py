@@ -168,6 +168,10 @@ def strip_of(plot: Plot) -> str:
         f'<span class="tick" style="left:{100 * share:.3f}%">{text}</span>'
         for share, text in plot.ticks
     )
+    mark = ""
+    if plot.below is not None:
+        share, text = plot.below
+        mark = f'<i class="below" style="bottom:{100 * share:.3f}%">{text}</i>'
     title = _text(f"{plot.title}: {plot.words}")
     return (
         f'<figure class="gap" role="img" aria-label="{title}">'
@@ -175,7 +179,7 @@ def strip_of(plot: Plot) -> str:
         f'<polyline points="{points}"/></svg>'
         f"<figcaption>{_text(plot.title)}, up to {plot.top:.6g} <b>{_text(plot.words)}</b>"
         f'</figcaption><i class="drop" style="left:{100 * x:.3f}%"></i>'
-        f'<i class="least" style="left:{100 * x:.3f}%;bottom:{100 * y:.3f}%"></i>{ticks}'
+        f'<i class="least" style="left:{100 * x:.3f}%;bottom:{100 * y:.3f}%"></i>{mark}{ticks}'
         '<i id="now"></i></figure>'
     )
 

@@ -114,6 +114,26 @@ def test_on_the_command_line(scene, ending):
         assert "least 0 at t = 3<" in data.decode()
 
 
+@pytest.mark.parametrize("ending", ["svg", "html"])
+def test_a_distance_is_marked_in_pictures_and_in_pages(scene, ending):
+    """A page had no mark."""
+    names = ",".join(body.name for body in small().bodies[:2])
+    path = scene.with_name(f"gap.{ending}")
+
+    assert run("draw", scene, "--clearance", names, "--below", "999/2", "-o", path).exit_code == 0
+    drawn = path.read_text(encoding="utf-8")
+    assert drawn.count('class="below"') == drawn.count(">499.5<") == 1
+
+
+def test_a_negative_distance_is_not_marked(scene, capsys):
+    names = ",".join(body.name for body in small().bodies[:2])
+    path = scene.with_name("gap.html")
+
+    assert code_of("draw", scene, "--clearance", names, "--below", "-1/2", "-o", path) == 2
+    assert "below: a distance is not negative: -1/2" in capsys.readouterr().err
+    assert not path.exists()
+
+
 def test_a_page_of_bodies_that_touch_at_the_start(tmp_path):
     """The animation ends there; the plot shows the whole time span."""
     path = tmp_path / "scene.json"
@@ -129,7 +149,8 @@ def test_a_page_of_bodies_that_touch_at_the_start(tmp_path):
     "arguments, message",
     [
         (["--clearance", "box", "-o", "x.html"], "--clearance: not the names of two bodies"),
-        (["--clearance", "a,nobody", "-o", "x.html"], "there is no body"),
+        (["--clearance", "a,nobody", "-o", "x.html"], "--clearance: there is no body"),
+        (["--below", "1", "-o", "x.svg"], "below: 1 is for a plot of the clearance"),
         (["--clearance", "a,b", "--at", "1", "-o", "x.svg"], "--at: a plot of the clearance"),
     ],
 )
