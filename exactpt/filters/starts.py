@@ -53,6 +53,10 @@ from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
 from exactpt.filters.rows import Table, append_box
 from exactpt.filters.windows import ROW, Y0, Window, edge_box
 
+APART: Final[i64] = -1
+NOT_CERTAIN: Final[i64] = 0
+CROSSING: Final[i64] = 1
+"""What is certain of two edges: no common point; nothing; a point inside of both."""
 FEW_FEATURE_PAIRS: Final[i64] = 24
 """Number of pairs of a vertex and an edge up to which separating lines are tried."""
 FEW_EDGE_PAIRS: Final[i64] = 256
@@ -167,6 +171,13 @@ class Snapshot:
         return blocks
 
 
+def snapshot_of(table: Table, piece: i64, t: float) -> Snapshot:
+    """Return a piece at a time."""
+    made = Snapshot(table, t)
+    made.take(piece)
+    return made
+
+
 class Pair:
     """Two pieces at one time.
 
@@ -244,33 +255,41 @@ class Pair:
         return False
 
     def may_meet(self, edge: i64, other: i64) -> bool:
-        """Return True unless two edges are certainly apart, by more than the radii.
+        """Return True unless two edges are certainly apart, by more than the radii."""
+        return self.meeting(edge, other) != APART
 
-        They are if the line of one has the other one on one side, or, with radii, if one is beyond
-        an end of the other, or two points are far from each other. For edges on one line it is
-        their boxes that are apart.
+    def meeting(self, edge: i64, other: i64) -> i64:
+        """Return whether two edges are `APART`, or are `CROSSING`, or neither is certain.
+
+        They are apart if the line of one has the other one on one side, or, with radii, if one is
+        beyond an end of the other, or two points are far from each other. For edges on one line it
+        is their boxes that are apart. They cross if each line has the ends of the other on both
+        sides.
         """
         table, p, q = self.table, self.p.rows, self.q.rows
         e, f = table.edge[self.i] + edge, table.edge[self.j] + other
         a, b = table.begins[e], table.ends[e]
         c, d = table.begins[f], table.ends[f]
-        if self.is_on_one_side(p, a, b, q, c, d) or self.is_on_one_side(q, c, d, p, a, b):
-            return False
+        of_c, of_d = self.side(p, a, b, q, c, self.reach), self.side(p, a, b, q, d, self.reach)
+        if of_c != 0 and of_c == of_d:
+            return APART
+        of_a, of_b = self.side(q, c, d, p, a, self.reach), self.side(q, c, d, p, b, self.reach)
+        if of_a != 0 and of_a == of_b:
+            return APART
+        if of_a != 0 and of_b != 0 and of_c != 0 and of_d != 0:
+            return CROSSING
         if self.reach != 0.0 and (
             self.is_beyond_an_end(p, a, b, q, c, d)
             or self.is_beyond_an_end(q, c, d, p, a, b)
             or (a == b and c == d and self.are_far(a, c))
         ):
-            return False
+            return APART
         off = 2.0 * self.rho + self.reach
         left, right, bottom, top = edge_box(p, a, b, off)
         low_x, high_x, low_y, high_y = edge_box(q, c, d, off)
-        return not (left > high_x or right < low_x or bottom > high_y or top < low_y)
-
-    def is_on_one_side(self, p: vec[float], a: i64, b: i64, q: vec[float], c: i64, d: i64) -> bool:
-        """Return True if both ends of an edge are certainly on one side of the line of another."""
-        of_c = self.side(p, a, b, q, c, self.reach)
-        return of_c != 0 and of_c == self.side(p, a, b, q, d, self.reach)
+        if left > high_x or right < low_x or bottom > high_y or top < low_y:
+            return APART
+        return NOT_CERTAIN
 
     def side(self, p: vec[float], a: i64, b: i64, q: vec[float], v: i64, reach: float) -> i64:
         """Return the side of an edge on which a vertex is: 1 is left, -1 right, 0 not certain.

@@ -24,7 +24,7 @@ from exactpt.kernel.numbers import (
     shorten,
     show,
 )
-from exactpt.motion.course import Course, Piece
+from exactpt.motion.course import Course, NearPositions, Piece
 from exactpt.motion.motions import (
     REST,
     Motion,
@@ -538,6 +538,14 @@ class Body:
     def exact_at(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """Return the places of the vertices at a time as rationals of GMP."""
         return self._course.at(t)
+
+    def exact_place_at(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
+        """Return the place of a vertex at a time; that of a few costs less than all of them."""
+        return self._course.place(vertex, t)
+
+    def near_places_at(self, t: QQ, origin: tuple[QQ, QQ]) -> NearPositions:
+        """Return the places of the vertices at a time in doubles, relative to an origin."""
+        return self._course.after(t).near_positions(t, origin)
 
     @overload
     def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]: ...

@@ -6,9 +6,10 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import final
+from typing import NamedTuple, final
 
 from exactpt.errors import InputError
+from exactpt.filters.rounding import TINY, U
 from exactpt.geometry.simple import orientation_of_doubles
 from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, nearest_float, of_double, show
@@ -23,6 +24,19 @@ from exactpt.motion.motions import (
 )
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
+
+
+class NearPositions(NamedTuple):
+    """Positions of vertices in doubles.
+
+    Attributes:
+        xs, ys: the coordinates.
+        error: no coordinate is off by more; infinite or a NaN if one is out of range.
+    """
+
+    xs: list[float]
+    ys: list[float]
+    error: float
 
 
 @final
@@ -93,6 +107,33 @@ class Piece:
         (xs, ys, _), translation = moved
         dx, dy = translation.exact_at(t)
         return [(of_double(x) + dx, of_double(y) + dy) for x, y in zip(xs, ys, strict=True)]
+
+    def near_positions(self, t: QQ, origin: tuple[QQ, QQ]) -> NearPositions:
+        """Return the positions at a rational time of the piece in doubles, relative to an origin.
+
+        Vertices that are translated or turned are where the first one is, plus their turned
+        difference from it. With D the largest size of a coordinate of these differences, and B of
+        the first position, both relative: a difference is rounded once, the cosine or the sine too,
+        then a product and two sums, each of which is of a size below 2 D + B. So a coordinate is
+        off by less than 5 U (2 D) + 2 U (2 D + B) < 16 U (D + B).
+        """
+        x0, y0 = self.position(0, t)
+        base_x, base_y = nearest_float(x0 - origin[0]), nearest_float(y0 - origin[1])
+        apart = self._shape.near_differences
+        if apart is None or not isinstance(self.motion, (Translation, Rigid)):
+            exact = [self.position(v, t) for v in range(self._shape.size)]
+            xs = [nearest_float(x - origin[0]) for x, _ in exact]
+            ys = [nearest_float(y - origin[1]) for _, y in exact]
+            return NearPositions(xs, ys, 2.0 * U * _largest(xs, ys) + TINY)
+        dxs, dys = apart
+        error = 16.0 * U * (_largest(dxs, dys) + max(abs(base_x), abs(base_y))) + TINY
+        if isinstance(self.motion, Translation):
+            return NearPositions([base_x + x for x in dxs], [base_y + y for y in dys], error)
+        cosine, sine = map(nearest_float, self.motion.exact_map_at(t)[:2])
+        both = list(zip(dxs, dys, strict=True))
+        xs = [base_x + (cosine * x - sine * y) for x, y in both]
+        ys = [base_y + (sine * x + cosine * y) for x, y in both]
+        return NearPositions(xs, ys, error)
 
     def turns_left(self, ring: range, t: QQ) -> bool:
         """Return True if a ring of a body with interior is counter-clockwise at a rational time."""
@@ -220,6 +261,15 @@ class Course:
             self._last = last = t, self.after(t).positions(t)
         return last[1][:]
 
+    def place(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
+        """Return the position of a vertex at a time."""
+        last = self._last
+        return (
+            last[1][vertex]
+            if last is not None and last[0] == t
+            else self.after(t).position(vertex, t)
+        )
+
     def _check_continuity(self, motion: Pieces) -> None:
         for t, (before, after) in zip(motion.exact_until, pairwise(motion.motions), strict=True):
             if (
@@ -233,6 +283,12 @@ class Course:
             for i, (a, b) in enumerate(both):
                 if a != b:
                     raise InputError(f"vertex {i} {jump(t, a, b)}; see exactpt.in_local_time")
+
+
+def _largest(xs: Sequence[float], ys: Sequence[float]) -> float:
+    """Return the largest size of a coordinate."""
+    sides = max(xs), -min(xs), max(ys), -min(ys)
+    return max(sides)
 
 
 def jump(t: QQ, a: tuple[QQ, QQ], b: tuple[QQ, QQ]) -> str:

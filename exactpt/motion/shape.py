@@ -152,6 +152,24 @@ class Shape:
             )
         return self._near
 
+    @property
+    def near_differences(self) -> tuple[list[float], list[float]] | None:
+        """The differences of the vertices from the first one, each rounded once.
+
+        None if they are not constant, or out of range.
+        """
+        near = self.near
+        if near is None:
+            return None
+        xs, ys = near.xs, near.ys
+        if near.is_exact:
+            return [x - xs[0] for x in xs], [y - ys[0] for y in ys]
+        places = [self.rest_place(vertex) for vertex in range(self.size)]
+        x0, y0 = places[0]
+        return [nearest_float(x - x0) for x, _ in places], [
+            nearest_float(y - y0) for _, y in places
+        ]
+
     def after(self, t: QQ) -> tuple[Position, ...]:
         """Return the motion just after a time; it rests outside the keyframes."""
         if not self.keyframes:

@@ -21,7 +21,7 @@ from exactpt.kernel.numbers import QQ, nearest_float, rational
 from exactpt.kernel.square_root import root_bounds
 from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
-from exactpt.pair.distance import squared_from_segment
+from exactpt.pair.nearest_at import squared_from_segment
 
 GRID: Final = 12
 """Points of a grid along one side."""

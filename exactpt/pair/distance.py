@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
-from typing import Final, final
+from typing import final
 
 from exactpt.errors import InputError
-from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import check_budget
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, show
 from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
+from exactpt.motion.track import Incidence
 from exactpt.pair.features import Feature
-from exactpt.pair.pieces_of_two import cores_intersect, two_bodies
+from exactpt.pair.nearest_at import TwoAtTime
+from exactpt.pair.pieces_of_two import two_bodies
 from exactpt.scene.scene import Scene
-
-FEW: Final = 128
-"""Maximum number of pairs of vertices of two bodies of which all features are compared exactly."""
 
 
 @final
@@ -114,13 +109,14 @@ def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Di
             is irrational or outside the span.
     """
     first, second = two_bodies(scene, a, b)
-    t = _rational_time(scene, at)
-    found = list(_near_features(first, second, t))
-    least, radius = min(squared for squared, _ in found), first.radius + second.radius
-    if least and cores_intersect(first, second, t):
-        return Distance(Fraction(0), (), radius)
-    nearest = tuple(sorted({pair for s, pair in found if s == least}, key=_in_order))
-    return Distance(fraction(least), nearest, radius)
+    t = time_in_span(scene, at)
+    there = TwoAtTime(first, second, t)
+    squared, radius = there.squared, first.radius + second.radius
+    assert squared is not None  # noqa: S101 - it has no limit
+    nearest = [pair.features for pair in there.nearest if pair.squared == squared]
+    return Distance(
+        fraction(squared), tuple(sorted(map(_features, nearest), key=_in_order)), radius
+    )
 
 
 def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
@@ -142,16 +138,23 @@ def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
     return fraction((root - QQ(radius)) ** 2)
 
 
-def squared_distance(a: Body, b: Body, t: QQ) -> QQ:
-    """Return the squared distance of the cores of two bodies at a rational time."""
-    return (
-        QQ(0)
-        if cores_intersect(a, b, t)
-        else min(squared for squared, _ in _near_features(a, b, t))
-    )
+def compare_distance(a: Body, b: Body, t: QQ, squared: QQ) -> int:
+    """Return the sign of the squared distance of two cores less a number, at a rational time."""
+    found = TwoAtTime(a, b, t, squared).squared
+    return 1 if found is None else (found > squared) - (found < squared)
 
 
-def _rational_time(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:
+def cores_intersect(a: Body, b: Body, t: QQ) -> bool:
+    """Return True if the cores of two bodies have a point in common at a rational time."""
+    return compare_distance(a, b, t, QQ(0)) == 0
+
+
+def time_in_span(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:
+    """Return a time of a caller as a rational number.
+
+    Raises:
+        InputError: if it is irrational, or outside of the time span of the scene.
+    """
     if isinstance(at, AlgebraicNumber):
         at = at.simplified()
         if not at.is_rational:
@@ -170,63 +173,10 @@ def _in_order(pair: tuple[Feature, Feature]) -> list[int]:
     return [-1 if number is None else number for feature in pair for number in feature]
 
 
-def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
-    """Yield squared distances of vertices from vertices, and from the interiors of edges.
-
-    All that are least are among them.
-    """
-    p, q = a.exact_at(t), b.exact_at(t)
-    if a.size * b.size > FEW:
-        yield from _filtered_features(a, p, b, q)
-        return
-    for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
-        yield _squared(u, v), (Feature(i, None), Feature(j, None))
-    for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):
-        squared = squared_from_interior(v, p[k], p[l])
-        if squared is not None:
-            yield squared, (Feature(None, e), Feature(j, None))
-    for (i, u), (e, (k, l)) in product(enumerate(p), enumerate(b.edges)):
-        squared = squared_from_interior(u, q[k], q[l])
-        if squared is not None:
-            yield squared, (Feature(i, None), Feature(None, e))
-
-
-def _filtered_features(
-    a: Body, p: list[Point], b: Body, q: list[Point]
-) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
-    """Yield the same of those features that may be nearest, given the vertices of the bodies."""
-    from exactpt.pair.nearest_at import incidences_that_may_be_nearest
-
-    edges, points = (a.edges, b.edges), (p, q)
-    for body, vertex, other, edge, other_vertex in incidences_that_may_be_nearest(a, p, b, q):
-        check_budget()
-        one, v = Feature(vertex, None), points[body][vertex]
-        if edge < 0:
-            yield _squared(v, points[other][other_vertex]), (one, Feature(other_vertex, None))
-            continue
-        k, l = edges[other][edge]
-        squared = squared_from_interior(v, points[other][k], points[other][l])
-        if squared is not None:
-            two = Feature(None, edge)
-            yield squared, (one, two) if body < other else (two, one)
-
-
-def _squared(u: Point, v: Point) -> QQ:
-    return (u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2
-
-
-def squared_from_segment(v: Point, segment: tuple[Point, Point]) -> QQ:
-    """Return the squared distance of a point from a segment."""
-    inside = squared_from_interior(v, *segment)
-    if inside is not None:
-        return inside
-    return min((v[0] - x) ** 2 + (v[1] - y) ** 2 for x, y in segment)
-
-
-def squared_from_interior(v: Point, a: Point, b: Point) -> QQ | None:
-    """Return the squared distance of v from ab; None if the nearest point is an end."""
-    x, y = b[0] - a[0], b[1] - a[1]
-    along, length = x * (v[0] - a[0]) + y * (v[1] - a[1]), x * x + y * y
-    if not 0 < along < length:
-        return None
-    return (x * (v[1] - a[1]) - y * (v[0] - a[0])) ** 2 / length
+def _features(pair: Incidence) -> tuple[Feature, Feature]:
+    """Return the features of the bodies 0 and 1."""
+    one = Feature(pair.vertex, None)
+    if pair.edge < 0:
+        return one, Feature(pair.other_vertex, None)
+    two = Feature(None, pair.edge)
+    return (one, two) if pair.body < pair.other else (two, one)

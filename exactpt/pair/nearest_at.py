@@ -1,169 +1,200 @@
-"""The pairs of features of two bodies that may be nearest at one time: a float filter.
+"""The nearest features of two bodies at one time.
 
-The distance of two vertices, one of each body, bounds that of the bodies. Vertices and edges that
-are farther than that from the box of the other body are in no nearest pair, and no pair is nearest
-whose boxes are farther apart. Few pairs are left where the bodies are close to each other compared
-with their size. `exactpt.pair.near_features.may_be_least` compares these.
-
-Rounding. Boxes of points are rounded outward, so the gap of two boxes in x or in y is at least the
-difference of the doubles, which is off by at most U of it, as is ``hypot`` by a few units: `SLACK`
-covers them. The bound is the ``hypot`` of the largest differences of the sides of two boxes, again
-with `SLACK`, and `TINY` for underflow. A NaN, which needs an infinity, excludes nothing.
+Doubles leave a few pairs of features that may be nearest, and of edges that may meet
+(`exactpt.filters.nearest`); exact arithmetic decides among them. Only their vertices have exact
+places, unless it is not certain in doubles that the bodies are outside of each other.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Final, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Final, NamedTuple, final
 
-import numpy as np
-
-from exactpt.filters.rounding import SLACK, TINY
-from exactpt.geometry.boxes import Boxes, boxes_of_points, crossing_pairs, grown
+from exactpt.cached_property import cached_property
+from exactpt.filters.nearest import Nearest
+from exactpt.filters.rounding import TINY, check_rounding
+from exactpt.filters.rows import FRAME, NO_BOX, STRAIGHT, Errors, Piece, Table
+from exactpt.filters.starts import snapshot_of
+from exactpt.geometry.polygon import segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.doubles import Flags, Floats, Indices
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.motion.body import Body
+from exactpt.motion.course import NearPositions
+from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Incidence, vertex_touch
-from exactpt.pair.near_features import joined, may_be_least
 
-STEPS: Final = 8
-"""Number of times that the nearest vertex of either body is looked for."""
-
-
-class _Features(NamedTuple):
-    """Vertices or edges of one body, with their boxes.
-
-    Attributes:
-        first, last: the ends of each; twice the vertex, for a vertex.
-        edge: the number of each edge in the body; -1 for a vertex.
-        boxes: the box of each.
-    """
-
-    first: Indices
-    last: Indices
-    edge: Indices
-    boxes: Boxes
-
-    def within(self, distance: float, box: Floats) -> _Features:
-        """Return those that may be within a distance of a box."""
-        gaps = np.maximum(box[::2] - self.boxes[:, 1::2], self.boxes[:, ::2] - box[1::2])
-        gap = np.hypot(*np.maximum(gaps, 0.0).T)
-        near = ~(gap > distance * SLACK)
-        return _Features(*(column[near] for column in self))
+NOW: Final = 0.0
+"""The time of the table: positions at one time are those of bodies at rest."""
+LARGEST_EXPONENT: Final = 64
+"""Binary exponents of coordinates that keep their unit are at most of this size."""
 
 
-class _Pairs(NamedTuple):
-    """Pairs of a vertex, and a vertex or an edge of the other body, as arrays.
+class Apart(NamedTuple):
+    """A pair of features, and the square of its distance.
 
     Attributes:
-        v: the vertex of each.
-        first, last, edge: the other feature, as in `_Features`.
+        squared: the square.
+        features: a vertex, and a vertex or an edge of the other body; the bodies are 0 and 1.
     """
 
-    v: Indices
-    first: Indices
-    last: Indices
-    edge: Indices
-
-    def that(self, are: Flags) -> _Pairs:
-        """Return those pairs for which it is true."""
-        return _Pairs(*(column[are] for column in self))
+    squared: QQ
+    features: Incidence
 
 
-def incidences_that_may_be_nearest(
-    a: Body, p: list[Point], b: Body, q: list[Point]
-) -> Iterator[Incidence]:
-    """Yield the pairs of features that may be nearest, with all that are, once each.
+@final
+class TwoAtTime:
+    """The cores of two bodies at a rational time.
 
     Args:
-        a: a body, with the number 0.
-        p: its vertices at the time.
-        b: another body, with the number 1.
-        q: its vertices.
+        a: a body.
+        b: another body.
+        t: the time.
+        within: the square of a distance: it matters only whether, and how, the bodies are at most
+            so far from each other. None if it has no limit.
     """
-    n = len(p)
-    boxes = boxes_of_points([(point,) for point in (*p, *q)])
-    pairs = _pairs_that_may_be_nearest(boxes, n, _ends(a), n + _ends(b))
-    for v, first, _, edge in zip(*(column.tolist() for column in pairs), strict=True):
-        if edge < 0:
-            yield vertex_touch(0, v, 1, first - n)
-        elif v < n:
-            yield Incidence(0, v, 1, edge, -1)
-        else:
-            yield Incidence(1, v - n, 0, edge, -1)
 
-
-@np.errstate(all="ignore")
-def _pairs_that_may_be_nearest(boxes: Boxes, n: int, ends_a: Indices, ends_b: Indices) -> _Pairs:
-    """Return the pairs, given the boxes of all vertices and the vertices of all edges.
-
-    Those of the second body are numbered from n on.
-    """
-    numbers = np.arange(len(boxes))
-    far = _distance_above(boxes[:n], boxes[n:])
-    of_a, of_b = (_hull(some) for some in (boxes[:n], boxes[n:]))
-    vertices_of_a = _vertices(numbers[:n], boxes).within(far, of_b)
-    vertices_of_b = _vertices(numbers[n:], boxes).within(far, of_a)
-    edges_of_a = _edges(ends_a, boxes).within(far, of_b)
-    edges_of_b = _edges(ends_b, boxes).within(far, of_a)
-    chunks = [
-        chunk.that(may_be_least(boxes, chunk.v, chunk.first, chunk.last))
-        for vertices, others in (
-            (vertices_of_a, vertices_of_b),
-            (vertices_of_a, edges_of_b),
-            (vertices_of_b, edges_of_a),
-        )
-        for chunk in _near_each_other(vertices, others, far)
-    ]
-    pairs = _Pairs(*(np.concatenate(columns) for columns in zip(*chunks, strict=True)))
-    return pairs.that(may_be_least(boxes, pairs.v, pairs.first, pairs.last))
-
-
-def _vertices(numbers: Indices, boxes: Boxes) -> _Features:
-    return _Features(numbers, numbers, np.full(len(numbers), -1), boxes[numbers])
-
-
-def _ends(body: Body) -> Indices:
-    """Return the vertices at the ends of each edge: shape (n, 2)."""
-    return np.array(body.edges, np.int64).reshape(-1, 2)
-
-
-def _edges(ends: Indices, boxes: Boxes) -> _Features:
-    first, last = ends.T
-    return _Features(first, last, np.arange(len(ends)), joined(boxes[first], boxes[last]))
-
-
-def _hull(boxes: Boxes) -> Floats:
-    """Return the least box that contains some boxes."""
-    hull: Floats = boxes.max(axis=0)
-    hull[::2] = boxes[:, ::2].min(axis=0)
-    return hull
-
-
-def _near_each_other(vertices: _Features, others: _Features, far: float) -> Iterator[_Pairs]:
-    """Yield the pairs whose boxes are within a distance, in chunks."""
-    for i, j in crossing_pairs(grown(vertices.boxes, far), others.boxes):
+    def __init__(self, a: Body, b: Body, t: QQ, within: QQ | None = None) -> None:
+        check_rounding()
         check_budget()
-        if len(i):
-            yield _Pairs(vertices.first[i], others.first[j], others.last[j], others.edge[j])
+        self._two = a, b
+        self._t = t
+        self._places: tuple[dict[int, Point], dict[int, Point]] = {}, {}
+        self._table = table = Table()
+        origin = self._place(0, 0)
+        positions = [body.near_places_at(t, origin) for body in self._two]
+        exponent = _exponent_of_unit(positions)
+        for body, near in zip(self._two, positions, strict=True):
+            _add(table, body, near, exponent)
+        limit = math.inf
+        if within is not None:
+            limit = enclosing_floats(within * power_of_two(-2 * exponent))[1]
+        self._near = Nearest(snapshot_of(table, 0, NOW), snapshot_of(table, 1, NOW), limit)
+
+    @cached_property
+    def nearest(self) -> list[Apart]:
+        """The nearest pairs of features, a vertex being one of each; two vertices once.
+
+        Beyond the limit there may be none. If bodies cross there may be none; then all that are at
+        the distance 0 are here.
+        """
+        found = list(self._pairs())
+        least = min((pair.squared for pair in found), default=None)
+        return [pair for pair in found if pair.squared == least]
+
+    @property
+    def squared(self) -> QQ | None:
+        """The square of the distance; None if it is larger than the limit."""
+        least = self.nearest[0].squared if self.nearest else None
+        if least is not None and not least:
+            return least
+        return QQ(0) if self.intersect_apart_from_vertices else least
+
+    @cached_property
+    def intersect_apart_from_vertices(self) -> bool:
+        """Whether the cores have a common point, if no vertex of one is on the other."""
+        near = self._near
+        return near.cross or self._edges_meet() or not (near.is_outside() or self._is_outside())
+
+    def _pairs(self) -> Iterator[Apart]:
+        """Yield the pairs that may be nearest, once each, with their squared distances."""
+        for pair in self._near.features():
+            check_budget()
+            one, v = pair.one, self._place(pair.one, pair.vertex)
+            if pair.edge < 0:
+                w = self._place(pair.other, pair.other_vertex)
+                touch = vertex_touch(one, pair.vertex, pair.other, pair.other_vertex)
+                yield Apart(squared_length(v, w), touch)
+                continue
+            squared = squared_from_interior(v, *self._ends(pair.other, pair.edge))
+            if squared is not None:
+                yield Apart(squared, Incidence(one, pair.vertex, pair.other, pair.edge, -1))
+
+    def _edges_meet(self) -> bool:
+        met = list(self._near.met)
+        return any(
+            segments_meet(*self._ends(0, edge), *self._ends(1, other))
+            for edge, other in zip(met[::2], met[1::2], strict=True)
+        )
+
+    def _is_outside(self) -> bool:
+        """Return True if no core is inside of the other; their boundaries are disjoint."""
+        (a, b), t = self._two, self._t
+        return not one_is_inside(a, a.exact_at(t), b, b.exact_at(t))
+
+    def _place(self, body: int, vertex: int) -> Point:
+        known = self._places[body].get(vertex)
+        if known is None:
+            known = self._places[body][vertex] = self._two[body].exact_place_at(vertex, self._t)
+        return known
+
+    def _ends(self, body: int, edge: int) -> tuple[Point, Point]:
+        number = self._table.edge[body] + edge
+        begin, end = self._table.begins[number], self._table.ends[number]
+        return self._place(body, begin), self._place(body, end)
 
 
-def _distance_above(some: Boxes, others: Boxes) -> float:
-    """Return an upper bound of the distance of a vertex of one body from one of the other.
+def _exponent_of_unit(positions: Iterable[NearPositions]) -> int:
+    """Return the binary exponent of a unit in which products do not overflow or underflow."""
+    size = max(max(*map(abs, some.xs), *map(abs, some.ys), 0.0) for some in positions)
+    exponent = math.frexp(size)[1] if math.isfinite(size) else 0
+    return exponent if abs(exponent) > LARGEST_EXPONENT else 0
 
-    Each is about the nearest one to the other.
+
+def _add(table: Table, body: Body, near: NearPositions, exponent: int) -> None:
+    """Add a body as it is at one time.
+
+    Args:
+        table: takes the body.
+        body: the body.
+        near: its vertices.
+        exponent: the binary exponent of the unit. To divide by a unit is exact but for underflow,
+            for which the error has room (`TINY`).
     """
-    i = j = 0
-    for _ in range(STEPS):
-        i = _nearest(some, others[j])
-        j = _nearest(others, some[i])
-    one, other = some[i], others[j]
-    x, y = np.maximum(one[1::2] - other[::2], other[1::2] - one[::2])
-    far = float(np.hypot(x, y)) * SLACK + TINY
-    return min(math.inf, far)  # of a NaN too
+    xs, ys, error = near
+    if exponent:
+        xs = [math.ldexp(x, -exponent) for x in xs]
+        ys = [math.ldexp(y, -exponent) for y in ys]
+        error = math.ldexp(error, -exponent) + TINY
+    is_ring = body.closed and body.size > 2 and not body.has_rings
+    edges = [] if is_ring else body.edges or [(0, 0)]
+    table.add_piece(
+        Piece(
+            body=table.count(),
+            kind=int(STRAIGHT),
+            start=NOW,
+            end=NOW,
+            place=table.add_places(xs, ys),
+            size=body.size,
+            edge=table.add_ring(body.size) if is_ring else table.add_edges(edges),
+            edges=body.size if is_ring else len(edges),
+            frame=[0.0] * int(FRAME),
+            box=NO_BOX,
+            errors=Errors(error, 0.0, 0.0),
+            radius=0.0,
+            deforms=False,
+        )
+    )
 
 
-def _nearest(boxes: Boxes, box: Floats) -> int:
-    return int(np.argmin(np.hypot(boxes[:, 0] - box[0], boxes[:, 2] - box[2])))
+def squared_length(u: Point, v: Point) -> QQ:
+    """Return the squared distance of two points."""
+    return (u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2
+
+
+def squared_from_segment(v: Point, segment: tuple[Point, Point]) -> QQ:
+    """Return the squared distance of a point from a segment."""
+    inside = squared_from_interior(v, *segment)
+    if inside is not None:
+        return inside
+    return min(squared_length(v, end) for end in segment)
+
+
+def squared_from_interior(v: Point, a: Point, b: Point) -> QQ | None:
+    """Return the squared distance of v from ab; None if the nearest point is an end."""
+    x, y = b[0] - a[0], b[1] - a[1]
+    along, length = x * (v[0] - a[0]) + y * (v[1] - a[1]), x * x + y * y
+    if not 0 < along < length:
+        return None
+    return (x * (v[1] - a[1]) - y * (v[0] - a[0])) ** 2 / length

@@ -17,8 +17,8 @@ from exactpt.geometry.predicates import (
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
-from exactpt.pair.distance import squared_distance
-from exactpt.pair.pieces_of_two import cores_intersect, segments_of
+from exactpt.pair.distance import compare_distance
+from exactpt.pair.pieces_of_two import segments_of
 
 Segment: TypeAlias = "tuple[Point, Point]"
 
@@ -53,7 +53,7 @@ def _placed(body: Body, t: QQ) -> _Placed:
 def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
     """Return True if two bodies, rounded or not, have a point in common."""
     reach = a.exact_radius + b.exact_radius
-    return squared_distance(a, b, t) <= reach * reach if reach else cores_intersect(a, b, t)
+    return compare_distance(a, b, t, reach * reach) <= 0
 
 
 def overlap(a: Body, b: Body, t: QQ) -> bool:
@@ -76,7 +76,7 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     """
     reach = a.exact_radius + b.exact_radius
     if reach:
-        return squared_distance(a, b, t) < reach * reach
+        return compare_distance(a, b, t, reach * reach) < 0
     first, second = _placed(a, t), _placed(b, t)
     if _cross_inside(first, second):
         return True

@@ -1,4 +1,4 @@
-"""The pieces of motion of two bodies, pair by pair; whether the bodies intersect."""
+"""The pieces of motion of two bodies, pair by pair."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.geometry.polygon import near_groups, segments_meet
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
-from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
 from exactpt.scene.groups import refuse_ignored_pair
 from exactpt.scene.scene import Scene, a_scene
@@ -58,14 +56,3 @@ def piece_pairs(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[PiecePair]:
 def segments_of(body: Body) -> list[tuple[int, int]]:
     """Return the edges of a body as pairs of vertices; a point is an edge from itself to itself."""
     return body.edges or [(0, 0)]
-
-
-def cores_intersect(a: Body, b: Body, t: QQ) -> bool:
-    """Return True if the cores of two bodies have a point in common at a rational time."""
-    p, q = a.exact_at(t), b.exact_at(t)
-    ends = [(p[i], p[j]) for i, j in segments_of(a)]
-    count = len(ends)
-    ends += [(q[i], q[j]) for i, j in segments_of(b)]
-    return any(
-        i < count <= j and segments_meet(*ends[i], *ends[j]) for i, j in near_groups(ends)
-    ) or one_is_inside(a, p, b, q)

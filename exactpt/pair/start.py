@@ -22,7 +22,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.inside import nested_pairs
 from exactpt.motion.track import Incidence, renumbered
 from exactpt.motion.vertices import Vertices
-from exactpt.pair.distance import squared_distance
+from exactpt.pair.distance import compare_distance
 from exactpt.pair.features import feature_pairs
 from exactpt.pair.incidences import tracks_just_before
 from exactpt.scene.scene import Scene
@@ -191,10 +191,10 @@ def within_at_start(
     """Yield those of some pairs that are within their distance, and whether they are nearer."""
     for i, j in near:
         check_budget()
-        limit = squared(i, j)
-        d = squared_distance(scene.bodies[i], scene.bodies[j], scene.exact_start)
-        if d <= limit:
-            yield (i, j), d < limit
+        two = scene.bodies[i], scene.bodies[j]
+        sign = compare_distance(*two, scene.exact_start, squared(i, j))
+        if sign <= 0:
+            yield (i, j), sign < 0
 
 
 def touches_at_distance(

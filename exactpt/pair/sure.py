@@ -71,8 +71,9 @@ from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
 from exactpt.motion.track import Incidence
 from exactpt.pair.depth import have_deep_point
-from exactpt.pair.distance import squared_distance, squared_from_segment
+from exactpt.pair.distance import compare_distance
 from exactpt.pair.features import FeaturePair
+from exactpt.pair.nearest_at import squared_from_segment
 from exactpt.pair.pieces_of_two import piece_pairs, segments_of
 
 Segment: TypeAlias = "tuple[Point, Point]"
@@ -89,7 +90,7 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     """
     margin = error - a.exact_radius - b.exact_radius
     if margin <= 0:
-        return squared_distance(a, b, t) <= margin * margin
+        return compare_distance(a, b, t, margin * margin) <= 0
     p, q = a.exact_at(t), b.exact_at(t)
     first, second = convex_parts(a, p), convex_parts(b, q)
     if any(overlap_everywhere(c, d, margin) for c in first for d in second):

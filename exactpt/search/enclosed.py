@@ -52,7 +52,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.displacement import Placed, displacement, placed_at
 from exactpt.motion.outline import may_touch_itself
 from exactpt.pair.contact import Contact
-from exactpt.pair.distance import squared_distance
+from exactpt.pair.distance import compare_distance
 from exactpt.pair.straight import Earliest
 from exactpt.pair.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
@@ -309,7 +309,7 @@ class _Search:
 def _may_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     """Return True if two bodies, of which a point is out of place by an error, may touch at t."""
     reach = a.exact_radius + b.exact_radius + error
-    return squared_distance(a, b, t) <= reach * reach
+    return compare_distance(a, b, t, reach * reach) <= 0
 
 
 def _corners(body: Body, t: QQ) -> list[tuple[QQ, QQ]]:

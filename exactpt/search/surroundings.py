@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, final, overload
+import math
+from typing import Final, NamedTuple, final, overload
 
 from exactpt.brief import counted, record_in_brief
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
+from exactpt.filters.boxes import Drift, during
+from exactpt.filters.rounding import U4
+from exactpt.filters.rows import Box
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
-from exactpt.kernel.numbers import QQ, Rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, nearest_float, power_of_two, shorten
 from exactpt.kernel.square_root import root_above
-from exactpt.pair.distance import Distance, distance
+from exactpt.pair.distance import Distance, distance, time_in_span
 from exactpt.scene.groups import names_of
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.search.candidate_pairs import candidate_pairs
@@ -23,7 +27,11 @@ from exactpt.search.clearance import (
     clearance_of_two,
 )
 from exactpt.search.query import Selection
+from exactpt.search.reading import rows_of_scene
 from exactpt.search.within import time_within_of_two as time_within
+
+FEW: Final = 4
+"""Number of other bodies that are compared without a look at boxes."""
 
 
 class NearestApproach(NamedTuple):
@@ -109,8 +117,17 @@ class Surroundings:
         Raises:
             InputError: if the time is outside of the time span.
         """
-        found = ((other, distance(self._scene, self.name, other, at)) for other in self.others)
-        return min(found, key=lambda one: one[1])
+        t = time_in_span(self._scene, at)
+        gaps = self._gaps(t)
+        found: dict[int, Distance] = {}
+        bound = math.inf
+        for k in sorted(range(len(gaps)), key=gaps.__getitem__):
+            if gaps[k] > bound:
+                break
+            found[k] = there = distance(self._scene, self.name, self.others[k], at)
+            bound = min(bound, math.nextafter(float(there), math.inf))
+        nearest = min(sorted(found), key=found.__getitem__)
+        return self.others[nearest], found[nearest]
 
     def __call__(self, at: Rational) -> float:
         """Return the double nearest to the distance from the nearest body at a rational time."""
@@ -157,6 +174,29 @@ class Surroundings:
         scene, first = self._scene, self._scene.body(self.name)
         return time_within(first, scene.body(other), scene.exact_start, scene.exact_end, d * d)
 
+    def _gaps(self, t: QQ) -> list[float]:
+        """Return lower bounds of the distances of the others at a time: those of their boxes.
+
+        The sides of a box are rounded outward. A gap is the difference of two of them, rounded, and
+        is made less by more than that.
+        """
+        if len(self.others) <= FEW:
+            return [0.0] * len(self.others)
+        rows = rows_of_scene(self._scene)
+        active, sides = during(rows.table, *rows.units.time(t), Drift())
+        names = names_of(self._scene.bodies)
+        boxes: dict[str, list[Box]] = {name: [] for name in names}
+        for row, left, right, bottom, top in zip(
+            active, sides[0::4], sides[1::4], sides[2::4], sides[3::4], strict=True
+        ):
+            boxes[names[rows.table.body[row]]].append((left, right, bottom, top))
+        own, unit = boxes[self.name], power_of_two(rows.units.scale[0])
+        gaps = [
+            min((_gap(box, two) for box in own for two in boxes[other]), default=0.0)
+            for other in self.others
+        ]
+        return gaps if rows.units.is_identity else [nearest_float(QQ(gap) * unit) for gap in gaps]
+
     def _near(self, reach: QQ) -> list[str]:
         """Return the names of those of the others that may come within a distance."""
         bodies, others = self._scene.bodies, frozenset(self.others)
@@ -164,6 +204,14 @@ class Surroundings:
         names = [(bodies[i].name, bodies[j].name) for i, j in pairs]
         near = [b if a == self.name else a for a, b in names if self.name in (a, b)]
         return [name for name in near if name in others]
+
+
+def _gap(one: Box, two: Box) -> float:
+    """Return a lower bound of the distance of two boxes."""
+    left, right, bottom, top = one
+    low_x, high_x, low_y, high_y = two
+    x, y = max(0.0, low_x - right, left - high_x), max(0.0, low_y - top, bottom - high_y)
+    return math.hypot(x, y) * (1.0 - U4)
 
 
 @overload

@@ -12,7 +12,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, rational, show
 from exactpt.kernel.square_root import exact_square_root, root_above
 from exactpt.motion.body import Body
-from exactpt.pair.distance import squared_distance
+from exactpt.pair.distance import compare_distance
 from exactpt.pair.pieces_of_two import two_bodies
 from exactpt.pair.start import within_at_start
 from exactpt.scene.groups import groups_given
@@ -180,7 +180,7 @@ def time_within_of_two(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> Alg
     """
     squared_of_cores = square_between_cores(squared, a.exact_radius + b.exact_radius)
     if start == end:
-        is_within = squared_distance(a, b, start) <= squared_of_cores
+        is_within = compare_distance(a, b, start, squared_of_cores) <= 0
         return AlgebraicNumber(start) if is_within else None
     scene = scene_of((a, b), start, end)
     found = _first(scene, squared, Selection(scene))

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import pairwise
@@ -24,10 +25,11 @@ from exactpt.filters.rounding import U
 from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Errors, Table
 from exactpt.filters.starts import Starts
 from exactpt.kernel.numbers import QQ, nearest_float, rational
+from exactpt.pair.nearest_at import squared_from_segment
 from fuzz.adversaries.boxes import show
 from fuzz.adversaries.pieces import KINDS, TURNS, Piece, Point, Polynomial, power, value
 
-__all__ = ["Found", "attack", "share_a_point"]
+__all__ = ["Found", "Row", "Shape", "attack", "drawn", "share_a_point"]
 
 ROUNDED: Final = 0.5
 """The part of disjoint pairs that get radii."""
@@ -76,21 +78,61 @@ class Found:
 
 def attack(kind: int, rows: int, seed: int) -> Found:
     """Attack with a piece of one kind of motion and one of any kind."""
-    rng, found = Random(seed), Found()
-    while found.rows < rows:
+    rng, found = Random(f"radii {seed}"), Found()
+    for row in drawn(kind, rows, seed):
+        is_common = share_a_point(row.first, row.second)
+        is_rounded = not is_common and rng.random() < ROUNDED and _is_small(row)
+        if is_rounded:
+            is_common = _add_radii(rng, row)
+        claim = Starts(row.table, row.t).are_disjoint(row.i, row.j)
+        found.rows += 1
+        found.near += is_rounded or not row.is_random
+        if is_common:
+            found.common += 1
+            if claim:
+                found.wrong += 1
+                radii = f", radii {list(row.table.radius)}" if is_rounded else ""
+                found.first = found.first or f"{row.first} and {row.second} at {row.t}{radii}"
+        elif row.is_random and not is_rounded:
+            found.random += 1
+            found.told += claim
+    return found
+
+
+class Row(NamedTuple):
+    """Two pieces at one time.
+
+    Attributes:
+        table: has the pieces.
+        i, j: their numbers.
+        t: the time.
+        first, second: their shapes at the time, exactly.
+        is_random: whether they are placed at random, not aimed at each other.
+    """
+
+    table: Table
+    i: int
+    j: int
+    t: float
+    first: Shape
+    second: Shape
+    is_random: bool
+
+
+def drawn(kind: int, rows: int, seed: int) -> Iterator[Row]:
+    """Yield pairs of a piece of one kind of motion and one of any kind."""
+    rng = Random(seed)
+    for _ in range(rows):
         p, q = _shape(rng), _shape(rng)
         aim = rng.choice(AIMS)
         p, q = aim(rng, p, q)
         if aim is not _at_random:
             q = _nudged(rng, q)
-        _ask(rng, kind, (p, q), found, is_random=aim is _at_random)
-    return found
+        yield _row(rng, kind, (p, q), is_random=aim is _at_random)
 
 
-def _ask(
-    rng: Random, kind: int, shapes: tuple[Shape, Shape], found: Found, *, is_random: bool
-) -> None:
-    """Ask the filter about two shapes, of pieces that have them at some time."""
+def _row(rng: Random, kind: int, shapes: tuple[Shape, Shape], *, is_random: bool) -> Row:
+    """Return two pieces that have two shapes at some time."""
     t = rng.choice((0.0, 1.0, rng.uniform(-9.0, 9.0)))
     pieces = [
         _moving(rng, shapes[0], kind, t),
@@ -100,59 +142,37 @@ def _ask(
     table = Table()
     i, j = (piece.add_to(table, k, t - 1.0, t + 1.0) for k, piece in enumerate(pieces))
     first, second = (Shape(piece.at(rational(t)), piece.edges) for piece in pieces)
-    is_common = share_a_point(first, second)
-    is_rounded = not is_common and rng.random() < ROUNDED and _is_small(first, second)
-    if is_rounded:
-        squared = _squared_distance(first, second)
-        table.radius[i], table.radius[j] = _radii_near(rng, squared)
-        is_common = squared <= (rational(table.radius[i]) + rational(table.radius[j])) ** 2
-    claim = Starts(table, t).are_disjoint(i, j)
-    found.rows += 1
-    found.near += is_rounded or not is_random
-    if is_common:
-        found.common += 1
-        if claim:
-            found.wrong += 1
-            radii = f" with radii {table.radius[i]}, {table.radius[j]}" if is_rounded else ""
-            found.first = found.first or f"{first} and {second} at {t}{radii}"
-    elif is_random and not is_rounded:
-        found.random += 1
-        found.told += claim
+    return Row(table, i, j, t, first, second, is_random)
 
 
-def _is_small(p: Shape, q: Shape) -> bool:
-    return len(p.points) * len(q.points) <= SMALL
+def _is_small(row: Row) -> bool:
+    return len(row.first.points) * len(row.second.points) <= SMALL
 
 
-def _radii_near(rng: Random, squared: QQ) -> tuple[float, float]:
-    """Return two radii whose sum is a distance, but for a few roundings, or less or more."""
+def _add_radii(rng: Random, row: Row) -> bool:
+    """Add radii whose sum is the distance of the pieces but for a few roundings, or less or more.
+
+    Returns:
+        Whether the rounded pieces have a point in common.
+    """
+    squared = _squared_distance(row.first, row.second)
     distance = math.sqrt(nearest_float(squared))
     steps = rng.choice((0, 1, -1, 2, -2, 3, -3, 20, -20, 1000, -1000))
     both = distance * rng.choice((1.0, 1.0, 1.0, 1.0, 0.9, 1.1)) * (1.0 + steps * U)
     one = both * rng.choice((0.0, 0.5, rng.random()))
-    return one, both - one
+    other = both - one
+    row.table.radius[row.i], row.table.radius[row.j] = one, other
+    return squared <= (rational(one) + rational(other)) ** 2
 
 
 def _squared_distance(p: Shape, q: Shape) -> QQ:
     """Return the squared distance of two shapes that have no common point."""
     return min(
-        _squared_to_edge(v, one.points[i], one.points[j])
+        squared_from_segment(v, (one.points[i], one.points[j]))
         for one, other in ((p, q), (q, p))
         for v in other.points
         for i, j in one.edges
     )
-
-
-def _squared_to_edge(v: Point, a: Point, b: Point) -> QQ:
-    """Return the squared distance of a point from an edge."""
-    ux, uy = b[0] - a[0], b[1] - a[1]
-    zx, zy = v[0] - a[0], v[1] - a[1]
-    length, along = ux * ux + uy * uy, ux * zx + uy * zy
-    if along <= 0 or not length:
-        return zx * zx + zy * zy
-    if along >= length:
-        return (v[0] - b[0]) ** 2 + (v[1] - b[1]) ** 2
-    return (ux * zy - uy * zx) ** 2 / length
 
 
 def share_a_point(p: Shape, q: Shape) -> bool:

@@ -135,7 +135,7 @@ MISTAKES = {
     "other parts": Edit(Pair, "is_second_outside", "k < len(vertices)", "k < 1"),
     "rings": Edit(starts, "has_ring", "step < 0 or", "step < -99 or"),
     "the first in the second": Edit(Starts, "are_disjoint", " and swapped.is_second_outside()", ""),
-    "one side of an edge": Edit(Pair, "is_on_one_side", "of_c == self.side", "0 != self.side"),
+    "one side of an edge": Edit(Pair, "meeting", "of_c != 0 and of_c == of_d", "of_c != 0"),
     "edges near a box": Edit(
         starts, "near_edges", "2.0 * (p.rho + q.rho)", "-2.0 * (p.rho + q.rho)"
     ),
@@ -149,7 +149,7 @@ MISTAKES = {
     "behind one end": Edit(Pair, "is_beyond_an_end", "p, a, b, q, c) and", "p, a, b, q, c) or"),
     "distance of points": Edit(Pair, "are_far", "self.reach + ", ""),
     "error of the distance": Edit(Pair, "are_far", " + 2.0 * self.rho", ""),
-    "edges on one line": Edit(Pair, "may_meet", "off = 2.0 * self.rho", "off = -1e9 * self.rho"),
+    "edges on one line": Edit(Pair, "meeting", "off = 2.0 * self.rho", "off = -1e9 * self.rho"),
     "line between": Edit(Pair, "has_line_between", "2.0 * off", "0.0 * off"),
     "one side of a line": Edit(
         starts, "span_along", "low, high = min(low, x + y)", "low, high = x + y"
