@@ -3,8 +3,8 @@
 ``python -m fuzz.adversaries.starts --rows 1000000 --seed 1``. A row is a pair of pieces at one
 time. Most are aimed: a vertex of one is on a vertex or on an edge of the other, edges overlap, one
 piece or a part of it is just inside the other, or in a hole of it; then one is moved by a few
-roundings, or not at all. Half of the disjoint ones get radii whose sum is their distance but for a
-few roundings. Stated errors are used in full. If the true pieces have a point in common,
+roundings, or not at all. Half of them get radii; those of disjoint pieces add up to their distance
+but for a few roundings. Stated errors are used in full. If the true pieces have a point in common,
 the filter must not claim that they are disjoint. The last column is how often it claims so if they
 are: of pairs that are placed at random, it should be nearly always.
 """
@@ -32,7 +32,7 @@ from fuzz.adversaries.pieces import KINDS, TURNS, Piece, Point, Polynomial, powe
 __all__ = ["Found", "Row", "Shape", "attack", "drawn", "share_a_point"]
 
 ROUNDED: Final = 0.5
-"""The part of disjoint pairs that get radii."""
+"""The part of the pairs that get radii."""
 SMALL: Final = 100
 """Pairs of vertices up to which the distance of two shapes is computed."""
 
@@ -81,9 +81,10 @@ def attack(kind: int, rows: int, seed: int) -> Found:
     rng, found = Random(f"radii {seed}"), Found()
     for row in drawn(kind, rows, seed):
         is_common = share_a_point(row.first, row.second)
-        is_rounded = not is_common and rng.random() < ROUNDED and _is_small(row)
+        is_rounded = rng.random() < ROUNDED and _is_small(row)
         if is_rounded:
-            is_common = _add_radii(rng, row)
+            squared = QQ(0) if is_common else _squared_distance(row.first, row.second)
+            is_common |= _add_radii(rng, row, squared)
         claim = Starts(row.table, row.t).are_disjoint(row.i, row.j)
         found.rows += 1
         found.near += is_rounded or not row.is_random
@@ -149,14 +150,18 @@ def _is_small(row: Row) -> bool:
     return len(row.first.points) * len(row.second.points) <= SMALL
 
 
-def _add_radii(rng: Random, row: Row) -> bool:
+def _add_radii(rng: Random, row: Row, squared: QQ) -> bool:
     """Add radii whose sum is the distance of the pieces but for a few roundings, or less or more.
+
+    Args:
+        rng: draws.
+        row: the pieces.
+        squared: the square of their distance; if it is 0, the radii are any.
 
     Returns:
         Whether the rounded pieces have a point in common.
     """
-    squared = _squared_distance(row.first, row.second)
-    distance = math.sqrt(nearest_float(squared))
+    distance = math.sqrt(nearest_float(squared)) or rng.random()
     steps = rng.choice((0, 1, -1, 2, -2, 3, -3, 20, -20, 1000, -1000))
     both = distance * rng.choice((1.0, 1.0, 1.0, 1.0, 0.9, 1.1)) * (1.0 + steps * U)
     one = both * rng.choice((0.0, 0.5, rng.random()))
