@@ -272,8 +272,8 @@ def test_scale_bars_of_any_size(size, tmp_path):
     [
         ({"legend": True, "gap": ("robot", "wall")}, "are for a picture of bodies"),
         ({"poses": -1}, "poses: not a number of them: -1"),
-        ({"below": 1}, "below: a distance >= 0, for a plot"),
-        ({"below": -1, "gap": ("robot", "wall")}, "below: a distance >= 0, for a plot"),
+        ({"below": 1}, "below: 1 is for a plot of the clearance"),
+        ({"below": -1, "gap": ("robot", "wall")}, "below: a distance is not negative: -1"),
     ],
 )
 def test_options_that_do_not_go_together(options, message, tmp_path):
