@@ -63,7 +63,10 @@ def of_polynomial(c: vec[float], at: i64, middle: float, half: float) -> Model:
     of the middle, which has an error of U if it is the time since an origin. The sizes of all terms
     that come from c[i] t^i add up to |c[i]| (|middle| + half)^i.
     """
-    c0, c1, c2, c3 = c[at], c[at + 1], c[at + 2], c[at + 3]
+    c0 = c[at]
+    c1 = c[at + 1]
+    c2 = c[at + 2]
+    c3 = c[at + 3]
     reach = abs(middle) + half
     if not reach < FARTHEST:
         return c0, 0.0, 0.0, INFINITY
@@ -72,7 +75,8 @@ def of_polynomial(c: vec[float], at: i64, middle: float, half: float) -> Model:
     bend = half * half * (c2 + 3.0 * middle * c3)
     cubic = half * half * half * abs(c3)
     size = abs(c0) + reach * (abs(c1) + reach * (abs(c2) + reach * abs(c3)))
-    return value, slope, bend, (cubic + ROUNDING * size) * SLACK + TINY
+    rest = cubic + ROUNDING * size
+    return value, slope, bend, rest * SLACK + TINY
 
 
 def of_long_polynomial(c: vec[float], at: i64, terms: i64, middle: float, half: float) -> Model:
@@ -91,8 +95,15 @@ def of_long_polynomial(c: vec[float], at: i64, terms: i64, middle: float, half: 
     reach = abs(middle) + half
     if not is_small_power(reach, terms):
         return c[at], 0.0, 0.0, INFINITY
-    value, slope, bend = 0.0, 0.0, 0.0
-    size, first, second, third = 0.0, 0.0, 0.0, 0.0
+    # The Taylor coefficients of the polynomial at the middle.
+    value = 0.0
+    slope = 0.0
+    bend = 0.0
+    # Those of the polynomial of the sizes |c[i]|, at R.
+    size = 0.0
+    first = 0.0
+    second = 0.0
+    third = 0.0
     i = terms
     while i > 0:
         i -= 1
@@ -105,7 +116,8 @@ def of_long_polynomial(c: vec[float], at: i64, terms: i64, middle: float, half: 
         size = size * reach + abs(c[at + i])
     cubic = half * half * half * third
     rounding = 4.0 * float(terms + 4) * U * size
-    return value, half * slope, half * half * bend, (cubic + rounding) * SLACK + TINY
+    rest = cubic + rounding
+    return value, half * slope, half * half * bend, rest * SLACK + TINY
 
 
 def is_small_power(x: float, exponent: i64) -> bool:
@@ -120,7 +132,13 @@ def is_small_power(x: float, exponent: i64) -> bool:
 
 def size_of(f: Model) -> float:
     """Return a bound of the quadratic, without the remainder."""
+    # By positions: compiled, names for them cost a tenth of the time of a window.
     return abs(f[0]) + abs(f[1]) + abs(f[2])
+
+
+def rest_of(f: Model) -> float:
+    """Return the remainder r of a model."""
+    return f[3]
 
 
 def plus(f: Model, g: Model) -> Model:
@@ -145,11 +163,15 @@ def times(f: Model, g: Model) -> Model:
     """
     f0, f1, f2, f_rest = f
     g0, g1, g2, g_rest = g
-    f_size, g_size = size_of(f), size_of(g)
+    f_size = size_of(f)
+    g_size = size_of(g)
     high = abs(f1 * g2) + abs(f2 * g1) + abs(f2 * g2)
     inherited = f_rest * (g_size + g_rest) + g_rest * f_size
     rest = high + inherited + ROUNDING * f_size * g_size
-    return f0 * g0, f0 * g1 + f1 * g0, f0 * g2 + f1 * g1 + f2 * g0, rest * SLACK + TINY
+    value = f0 * g0
+    slope = f0 * g1 + f1 * g0
+    bend = f0 * g2 + f1 * g1 + f2 * g0
+    return value, slope, bend, rest * SLACK + TINY
 
 
 def inverse(w: Model) -> Model:
@@ -159,20 +181,24 @@ def inverse(w: Model) -> Model:
 
         1 / w = (1 - e + e^2 - e^3 / (1 + e)) / w0,    where |e^3 / (1 + e)| <= q^3 / (1 - q).
 
-    e is p = e1 s + e2 s^2, but for an error of at most er. So e^2 is e1^2 s^2, but for
-    |2 e1 e2| + e2^2 (the terms in s^3 and s^4 of p^2) and 2 |p| er + er^2 <= er (2 q + er).
+    e is p = e1 s + e2 s^2, but for an error of at most e_rest. So e^2 is e1^2 s^2, but for
+    |2 e1 e2| + e2^2 (the terms in s^3 and s^4 of p^2) and
+    2 |p| e_rest + e_rest^2 <= e_rest (2 q + e_rest).
     A coefficient goes through at most 5 operations.
     """
     w0, w1, w2, w_rest = w
     if not abs(w0) > SMALL:
         return 0.0, 0.0, 0.0, INFINITY
-    e1, e2, er = w1 / w0, w2 / w0, abs(w_rest / w0)
-    q = (abs(e1) + abs(e2) + er) * SLACK
+    e1 = w1 / w0
+    e2 = w2 / w0
+    e_rest = abs(w_rest / w0)
+    q = (abs(e1) + abs(e2) + e_rest) * SLACK
     if not q < 0.5:
         return 0.0, 0.0, 0.0, INFINITY
     cubic = q * q * q / (1.0 - q)
-    square = abs(2.0 * e1 * e2) + e2 * e2 + er * (2.0 * q + er)
-    rest = (er + square + cubic + ROUNDING * (1.0 + q + q * q)) / abs(w0)
+    square = abs(2.0 * e1 * e2) + e2 * e2 + e_rest * (2.0 * q + e_rest)
+    rounding = ROUNDING * (1.0 + q + q * q)
+    rest = (e_rest + square + cubic + rounding) / abs(w0)
     return 1.0 / w0, -e1 / w0, (e1 * e1 - e2) / w0, rest * SLACK + TINY
 
 
@@ -185,7 +211,9 @@ def turned(cosine: Model, sine: Model, c: float, s: float) -> tuple[Model, Model
         c: the cosine of the constant angle, with a relative error up to U.
         s: its sine, likewise.
     """
-    return minus(scaled(cosine, c), scaled(sine, s)), plus(scaled(sine, c), scaled(cosine, s))
+    cosine_of_both = minus(scaled(cosine, c), scaled(sine, s))
+    sine_of_both = plus(scaled(sine, c), scaled(cosine, s))
+    return cosine_of_both, sine_of_both
 
 
 def moved(f: Model, by: float) -> Model:
@@ -210,7 +238,7 @@ def turn(h: Model) -> tuple[Model, Model]:
     """
     one: Model = (ONE, 0.0, 0.0, 0.0)
     i0, i1, i2, i_rest = inverse(plus(one, times(h, h)))
-    if i_rest == INFINITY and size_of(h) + h[3] < INFINITY:
+    if i_rest == INFINITY and size_of(h) + rest_of(h) < INFINITY:  # and not as h is unknown
         unknown: Model = (0.0, 0.0, 0.0, 1.0)
         return unknown, unknown
     twice: Model = (2.0 * i0, 2.0 * i1, 2.0 * i2, 2.0 * i_rest)

@@ -33,6 +33,7 @@ from exactpt.filters.models import (
     moved,
     of_long_polynomial,
     of_polynomial,
+    rest_of,
     size_of,
     times,
     turn,
@@ -46,7 +47,12 @@ from exactpt.filters.rows import (
     FRAME,
     GENERAL,
     HALF_TURN,
+    MATRIX_A,
+    MATRIX_B,
+    MATRIX_C,
+    MATRIX_D,
     OWN,
+    OWN_Y,
     PATH_X,
     PATH_Y,
     POLYNOMIALS,
@@ -117,17 +123,23 @@ class Window:
 
     def _fill_own(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices that move by themselves."""
-        rows, own = self.rows, table.own
-        first, n = COEFFICIENTS * table.place[piece], table.size[piece]
+        rows = self.rows
+        own = table.own
+        first = table.place[piece]
+        n = table.size[piece]
         remainder = 0.0
         v: i64 = 0
         while v < n:
-            at = first + COEFFICIENTS * v
+            at = COEFFICIENTS * (first + v)
             x0, x1, x2, x_rest = of_polynomial(own, at, middle, half)
-            y0, y1, y2, y_rest = of_polynomial(own, at + 4, middle, half)
+            y0, y1, y2, y_rest = of_polynomial(own, at + OWN_Y, middle, half)
             row = ROW * v
-            rows[row + X0], rows[row + X1], rows[row + X2] = x0, x1, x2
-            rows[row + Y0], rows[row + Y1], rows[row + Y2] = y0, y1, y2
+            rows[row + X0] = x0
+            rows[row + X1] = x1
+            rows[row + X2] = x2
+            rows[row + Y0] = y0
+            rows[row + Y1] = y1
+            rows[row + Y2] = y2
             remainder = larger(remainder, larger(x_rest, y_rest))
             v += 1
         self.rho = (remainder + given_error(table, piece, middle, half, 1.0)) * SLACK
@@ -136,14 +148,21 @@ class Window:
     def _fill_general(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices at (x / w, y / w)."""
         rows = self.rows
+        n = table.size[piece]
         remainder = 0.0
         v: i64 = 0
-        while v < table.size[piece]:
+        while v < n:
             x, y = quotients(table, piece, v, middle, half)
+            x0, x1, x2, x_rest = x
+            y0, y1, y2, y_rest = y
             row = ROW * v
-            rows[row + X0], rows[row + X1], rows[row + X2] = x[0], x[1], x[2]
-            rows[row + Y0], rows[row + Y1], rows[row + Y2] = y[0], y[1], y[2]
-            remainder = larger(remainder, larger(x[3], y[3]))
+            rows[row + X0] = x0
+            rows[row + X1] = x1
+            rows[row + X2] = x2
+            rows[row + Y0] = y0
+            rows[row + Y1] = y1
+            rows[row + Y2] = y2
+            remainder = larger(remainder, larger(x_rest, y_rest))
             v += 1
         self.is_coarse = remainder == INFINITY and has_models_at(table, piece, middle)
         self.rho = remainder * SLACK
@@ -152,48 +171,67 @@ class Window:
     def _fill_translated(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices that keep their places beside a path: a = d = 1, b = c = 0."""
         at = FRAME * piece
-        px0, px1, px2, px_rest = of_polynomial(table.frames, at, middle, half)
-        py0, py1, py2, py_rest = of_polynomial(table.frames, at + 4, middle, half)
-        rows, xs, ys = self.rows, table.xs, table.ys
-        first, n = table.place[piece], table.size[piece]
-        reach, total = 0.0, 0.0
+        path_x = of_polynomial(table.frames, at + PATH_X, middle, half)
+        path_y = of_polynomial(table.frames, at + PATH_Y, middle, half)
+        px0, px1, px2, px_rest = path_x
+        py0, py1, py2, py_rest = path_y
+        rows = self.rows
+        xs = table.xs
+        ys = table.ys
+        first = table.place[piece]
+        n = table.size[piece]
+        reach = 0.0
+        total = 0.0
         v: i64 = 0
         while v < n:
-            x, y = xs[first + v], ys[first + v]
+            x = xs[first + v]
+            y = ys[first + v]
             reach = max(reach, abs(x))
             reach = max(reach, abs(y))
             total += x + y
             row = ROW * v
-            rows[row + X0], rows[row + X1], rows[row + X2] = px0 + x, px1, px2
-            rows[row + Y0], rows[row + Y1], rows[row + Y2] = py0 + y, py1, py2
+            rows[row + X0] = px0 + x
+            rows[row + X1] = px1
+            rows[row + X2] = px2
+            rows[row + Y0] = py0 + y
+            rows[row + Y1] = py1
+            rows[row + Y2] = py2
             v += 1
         place = reach + NOTHING * total
-        path_size = larger(abs(px0) + abs(px1) + abs(px2), abs(py0) + abs(py1) + abs(py2))
+        path_size = larger(size_of(path_x), size_of(path_y))
         remainder = larger(px_rest, py_rest)
         rounding = ROUNDING * (path_size + place)
-        self.rho = (remainder + rounding + given_error(table, piece, middle, half, 1.0)) * SLACK
+        given = given_error(table, piece, middle, half, 1.0)
+        self.rho = (remainder + rounding + given) * SLACK
         self.remainder = 0.0 if table.kind[piece] == STRAIGHT else remainder
 
     def _fill_turning(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices that turn: a = d is the cosine, c = -b is the sine."""
         at = FRAME * piece
-        path_x = of_polynomial(table.frames, at, middle, half)
-        path_y = of_polynomial(table.frames, at + 4, middle, half)
-        cosine, sine = turn(of_polynomial(table.frames, at + HALF_TURN, middle, half))
-        is_unknown = cosine[3] == 1.0  # see `turn`
-        constant_c, constant_s = table.frames[at + COSINE], table.frames[at + SINE]
+        path_x = of_polynomial(table.frames, at + PATH_X, middle, half)
+        path_y = of_polynomial(table.frames, at + PATH_Y, middle, half)
+        half_turn = of_polynomial(table.frames, at + HALF_TURN, middle, half)
+        cosine, sine = turn(half_turn)
+        is_unknown = rest_of(cosine) == 1.0  # see `turn`
+        constant_c = table.frames[at + COSINE]
+        constant_s = table.frames[at + SINE]
         if constant_c != 0.0 or constant_s != 0.0:
             cosine, sine = turned(cosine, sine, constant_c, constant_s)
-        px0, px1, px2, _ = path_x
-        py0, py1, py2, _ = path_y
+        px0, px1, px2, px_rest = path_x
+        py0, py1, py2, py_rest = path_y
         c0, c1, c2, c_rest = cosine
         s0, s1, s2, s_rest = sine
-        rows, xs, ys = self.rows, table.xs, table.ys
-        first, n = table.place[piece], table.size[piece]
-        reach, total = 0.0, 0.0
+        rows = self.rows
+        xs = table.xs
+        ys = table.ys
+        first = table.place[piece]
+        n = table.size[piece]
+        reach = 0.0
+        total = 0.0
         v: i64 = 0
         while v < n:
-            x, y = xs[first + v], ys[first + v]
+            x = xs[first + v]
+            y = ys[first + v]
             reach = max(reach, abs(x))
             reach = max(reach, abs(y))
             total += x + y
@@ -207,8 +245,9 @@ class Window:
             v += 1
         place = reach + NOTHING * total
         path_size = larger(size_of(path_x), size_of(path_y))
-        rest, size = c_rest + s_rest, size_of(cosine) + size_of(sine)
-        remainder = larger(path_x[3], path_y[3]) + rest * place
+        size = size_of(cosine) + size_of(sine)
+        rest = c_rest + s_rest
+        remainder = larger(px_rest, py_rest) + rest * place
         rounding = ROUNDING * (path_size + size * place)
         given = given_error(table, piece, middle, half, size + rest)
         self.rho = (remainder + rounding + given) * SLACK
@@ -218,34 +257,45 @@ class Window:
     def _fill_affine(self, table: Table, piece: i64, middle: float, half: float) -> None:
         """Set the rows of vertices in a frame of four polynomials a, b, c, d."""
         at = FRAME * piece
-        path_x = of_polynomial(table.frames, at, middle, half)
-        path_y = of_polynomial(table.frames, at + 4, middle, half)
-        a = of_polynomial(table.frames, at + 8, middle, half)
-        b = of_polynomial(table.frames, at + 12, middle, half)
-        c = of_polynomial(table.frames, at + 16, middle, half)
-        d = of_polynomial(table.frames, at + 20, middle, half)
-        rows, xs, ys = self.rows, table.xs, table.ys
-        first, n = table.place[piece], table.size[piece]
-        reach, total = 0.0, 0.0
+        path_x = of_polynomial(table.frames, at + PATH_X, middle, half)
+        path_y = of_polynomial(table.frames, at + PATH_Y, middle, half)
+        a = of_polynomial(table.frames, at + MATRIX_A, middle, half)
+        b = of_polynomial(table.frames, at + MATRIX_B, middle, half)
+        c = of_polynomial(table.frames, at + MATRIX_C, middle, half)
+        d = of_polynomial(table.frames, at + MATRIX_D, middle, half)
+        px0, px1, px2, px_rest = path_x
+        py0, py1, py2, py_rest = path_y
+        a0, a1, a2, a_rest = a
+        b0, b1, b2, b_rest = b
+        c0, c1, c2, c_rest = c
+        d0, d1, d2, d_rest = d
+        rows = self.rows
+        xs = table.xs
+        ys = table.ys
+        first = table.place[piece]
+        n = table.size[piece]
+        reach = 0.0
+        total = 0.0
         v: i64 = 0
         while v < n:
-            x, y = xs[first + v], ys[first + v]
+            x = xs[first + v]
+            y = ys[first + v]
             reach = max(reach, abs(x))
             reach = max(reach, abs(y))
             total += x + y
             row = ROW * v
-            rows[row + X0] = path_x[0] + (a[0] * x + b[0] * y)
-            rows[row + X1] = path_x[1] + (a[1] * x + b[1] * y)
-            rows[row + X2] = path_x[2] + (a[2] * x + b[2] * y)
-            rows[row + Y0] = path_y[0] + (c[0] * x + d[0] * y)
-            rows[row + Y1] = path_y[1] + (c[1] * x + d[1] * y)
-            rows[row + Y2] = path_y[2] + (c[2] * x + d[2] * y)
+            rows[row + X0] = px0 + (a0 * x + b0 * y)
+            rows[row + X1] = px1 + (a1 * x + b1 * y)
+            rows[row + X2] = px2 + (a2 * x + b2 * y)
+            rows[row + Y0] = py0 + (c0 * x + d0 * y)
+            rows[row + Y1] = py1 + (c1 * x + d1 * y)
+            rows[row + Y2] = py2 + (c2 * x + d2 * y)
             v += 1
         place = reach + NOTHING * total
         path_size = larger(size_of(path_x), size_of(path_y))
-        rest = larger(a[3] + b[3], c[3] + d[3])
         size = larger(size_of(a) + size_of(b), size_of(c) + size_of(d))
-        remainder = larger(path_x[3], path_y[3]) + rest * place
+        rest = larger(a_rest + b_rest, c_rest + d_rest)
+        remainder = larger(px_rest, py_rest) + rest * place
         rounding = ROUNDING * (path_size + size * place)
         given = given_error(table, piece, middle, half, size + rest)
         self.rho = (remainder + rounding + given) * SLACK
@@ -253,19 +303,29 @@ class Window:
 
     def _find_box(self, n: i64) -> None:
         """Set the box of all vertices; the margin is that of `edge_box`."""
-        rows, rho = self.rows, self.rho
-        left, right, bottom, top = INFINITY, -INFINITY, INFINITY, -INFINITY
+        rows = self.rows
+        left = INFINITY
+        right = -INFINITY
+        bottom = INFINITY
+        top = -INFINITY
         v: i64 = 0
         while v < n:
             row = ROW * v
-            x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
-            y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
-            left, right = min(left, x - x_way), max(right, x + x_way)
-            bottom, top = min(bottom, y - y_way), max(top, y + y_way)
+            x = rows[row + X0]
+            x_way = abs(rows[row + X1]) + abs(rows[row + X2])
+            y = rows[row + Y0]
+            y_way = abs(rows[row + Y1]) + abs(rows[row + Y2])
+            left = min(left, x - x_way)
+            right = max(right, x + x_way)
+            bottom = min(bottom, y - y_way)
+            top = max(top, y + y_way)
             v += 1
-        margin = (rho + ROUNDING * (abs(left) + abs(right) + abs(bottom) + abs(top))) * SLACK
-        self.left, self.right = left - margin, right + margin
-        self.bottom, self.top = bottom - margin, top + margin
+        size = abs(left) + abs(right) + abs(bottom) + abs(top)
+        margin = (self.rho + ROUNDING * size) * SLACK
+        self.left = left - margin
+        self.right = right + margin
+        self.bottom = bottom - margin
+        self.top = top + margin
 
 
 def quotients(table: Table, piece: i64, v: i64, middle: float, half: float) -> tuple[Model, Model]:
@@ -281,15 +341,19 @@ def quotients(table: Table, piece: i64, v: i64, middle: float, half: float) -> t
         middle: the middle of the window, since the origin of the piece.
         half: half its width.
     """
-    c, terms = table.general, table.terms[piece]
-    at = table.place[piece] + POLYNOMIALS * terms * v
-    x = of_long_polynomial(c, at, terms, middle, half)
-    y = of_long_polynomial(c, at + terms, terms, middle, half)
-    w = inverse(of_long_polynomial(c, at + 2 * terms, terms, middle, half))
+    coefficients = table.general
+    terms = table.terms[piece]
+    at_x = table.place[piece] + POLYNOMIALS * terms * v
+    at_y = at_x + terms
+    at_w = at_y + terms
+    x = of_long_polynomial(coefficients, at_x, terms, middle, half)
+    y = of_long_polynomial(coefficients, at_y, terms, middle, half)
+    w = of_long_polynomial(coefficients, at_w, terms, middle, half)
+    inverse_w = inverse(w)
     anchor = FRAME * piece
     return (
-        moved(times(x, w), table.frames[anchor + PATH_X]),
-        moved(times(y, w), table.frames[anchor + PATH_Y]),
+        moved(times(x, inverse_w), table.frames[anchor + PATH_X]),
+        moved(times(y, inverse_w), table.frames[anchor + PATH_Y]),
     )
 
 
@@ -298,7 +362,9 @@ def has_models_at(table: Table, piece: i64, time: float) -> bool:
     v: i64 = 0
     while v < table.size[piece]:
         x, y = quotients(table, piece, v, time, 0.0)
-        if not (x[3] < INFINITY and y[3] < INFINITY):
+        has_x = rest_of(x) < INFINITY  # not a NaN either
+        has_y = rest_of(y) < INFINITY
+        if not (has_x and has_y):
             return False
         v += 1
     return True
@@ -339,14 +405,19 @@ def edge_box(rows: vec[float], i: i64, j: i64, d: float) -> tuple[float, float, 
             of the rows, and one for the rounding of x0 -+ (|x1| + |x2|) here and of the
             coordinates that the caller compares; rho is at least 16 U of the size of each row.
     """
-    row = ROW * i
-    x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
-    y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
-    left, right, bottom, top = x - x_way, x + x_way, y - y_way, y + y_way
-    row = ROW * j
-    x, x_way = rows[row + X0], abs(rows[row + X1]) + abs(rows[row + X2])
-    y, y_way = rows[row + Y0], abs(rows[row + Y1]) + abs(rows[row + Y2])
-    left, right = min(left, x - x_way), max(right, x + x_way)
-    bottom, top = min(bottom, y - y_way), max(top, y + y_way)
+    row_i = ROW * i
+    x_i = rows[row_i + X0]
+    y_i = rows[row_i + Y0]
+    x_way_i = abs(rows[row_i + X1]) + abs(rows[row_i + X2])
+    y_way_i = abs(rows[row_i + Y1]) + abs(rows[row_i + Y2])
+    row_j = ROW * j
+    x_j = rows[row_j + X0]
+    y_j = rows[row_j + Y0]
+    x_way_j = abs(rows[row_j + X1]) + abs(rows[row_j + X2])
+    y_way_j = abs(rows[row_j + Y1]) + abs(rows[row_j + Y2])
+    left = min(x_i - x_way_i, x_j - x_way_j)
+    right = max(x_i + x_way_i, x_j + x_way_j)
+    bottom = min(y_i - y_way_i, y_j - y_way_j)
+    top = max(y_i + y_way_i, y_j + y_way_j)
     margin = d + ROUNDING * (abs(left) + abs(right) + abs(bottom) + abs(top))
     return left - margin, right + margin, bottom - margin, top + margin

@@ -111,12 +111,10 @@ def test_turn_by_no_number_has_no_finite_remainder():
 
 
 MISTAKES = {
-    "polynomial: the cubic term": Edit(models, "of_polynomial", "(cubic + ", "("),
+    "polynomial: the cubic term": Edit(models, "of_polynomial", "cubic + ", ""),
     "polynomial: its slope": Edit(models, "of_polynomial", "2.0 * c2 + 3.0", "2.0 * c2 + 2.0"),
-    "long polynomial: the cubic term": Edit(models, "of_long_polynomial", "(cubic + ", "("),
-    "long polynomial: the rounding": Edit(
-        models, "of_long_polynomial", "(cubic + rounding)", "cubic"
-    ),
+    "long polynomial: the cubic term": Edit(models, "of_long_polynomial", "cubic + ", ""),
+    "long polynomial: the rounding": Edit(models, "of_long_polynomial", " + rounding", ""),
     "long polynomial: its constant": Edit(
         models, "of_long_polynomial", "4.0 * float(terms + 4)", "0.1 * float(terms + 4)"
     ),
@@ -140,7 +138,9 @@ MISTAKES = {
     "product: both remainders": Edit(models, "times", "(g_size + g_rest)", "g_size"),
     "inverse: terms of the third order": Edit(models, "inverse", "abs(2.0 * e1 * e2) + ", ""),
     "inverse: the end of the series": Edit(models, "inverse", "square + cubic", "square"),
-    "inverse: the remainder of its square": Edit(models, "inverse", " + er * (2.0 * q + er)", ""),
+    "inverse: the remainder of its square": Edit(
+        models, "inverse", " + e_rest * (2.0 * q + e_rest)", ""
+    ),
     "inverse: its square": Edit(models, "inverse", "e1 * e1 - e2", "-e2"),
     "turn: the remainder of the cosine": Edit(models, "turn", "2.0 * i_rest)", "i_rest)"),
     "turn: one that is too long": Edit(models, "turn", "0.0, 1.0)", "0.0, 0.9)"),
