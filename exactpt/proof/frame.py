@@ -90,7 +90,7 @@ class Frame:
         self.bodies = [*dict.fromkeys(paths.body[items].tolist())]
         self.row_of = {i: k for k, i in enumerate(self.bodies)}
         self._moved = {i: paths.translation(i, *self._span) for i in self.bodies}
-        first = paths.items[int(items[0])][1]
+        first = paths.items[int(items[0])].u
         self._origin, self._size = self._near(first, self._moved[self.bodies[0]]), 0.0
         self._moves = self._moves_of_all()
 
@@ -103,16 +103,17 @@ class Frame:
         count = sum(first[i + 1] - first[i] for i in self.bodies)
         if None in moved or len(self.items) < count or max(map(abs, self._origin)) > EXACT:
             return None
-        moves: Floats = np.array([[of[k] for of in moved if of] for k in (1, 2)])
+        first_and_last = [of.first for of in moved if of], [of.last for of in moved if of]
+        moves: Floats = np.array(first_and_last)
         moved_by = float(np.abs(moves).max()) + max(map(abs, self._origin))
-        self._size = max(moved_by, self._paths.shapes[3])
+        self._size = max(moved_by, self._paths.shapes.size)
         relative: Floats = moves - self._origin
         return relative
 
     @cached_property
     def _table(self) -> Table:
         """The vertices of the items, and their control points."""
-        ends = [self._paths.items[i][1:] for i in self.items.tolist()]
+        ends = [self._paths.items[i].ends for i in self.items.tolist()]
         row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
         points, first_vertices = list[Points](), list[int]()
         for i, group in groupby(row, self._paths.body_of.__getitem__):
@@ -173,9 +174,10 @@ class Frame:
     def _near(self, v: int, moved: Moved | None) -> tuple[int, int]:
         """Return an integer point near a vertex at the start."""
         if moved is not None:
-            (xs, ys, _), (i, j), _ = moved
             k = v - self._paths.first[self.bodies[0]]
-            x, y = xs[k] + i, ys[k] + j
+            by_x, by_y = moved.first
+            x = moved.shape.xs[k] + by_x
+            y = moved.shape.ys[k] + by_y
             if max(abs(x), abs(y)) <= EXACT:
                 return math.floor(x), math.floor(y)
         p, q, _, w = self.time.hull(self._paths, v)[0]  # type: ignore[arg-type]
@@ -183,16 +185,21 @@ class Frame:
 
     def _translating(self, body: int, vertices: Sequence[int], moved: Moved) -> Iterable[Points]:
         """Return the control points of the vertices of a body, by its shape in doubles."""
-        ((xs, ys, is_exact), (i, j), (k, m)), (a, b) = moved, self._origin
-        if max(abs(a), abs(b)) > EXACT:
+        from_x, from_y = self._origin
+        if max(abs(from_x), abs(from_y)) > EXACT:
             return map(self._exactly, vertices)
-        first, length = self._paths.first[body], self.length
-        rest = [(xs[v - first] - a, ys[v - first] - b) for v in vertices]
-        sizes = [*map(abs, (i, j, k, m, *chain(*rest)))]
-        if not is_exact:
-            sizes += [abs(f) for f in (min(xs), max(xs), min(ys), max(ys))]
+        xs, ys, is_exact = moved.shape
+        start_x, start_y = moved.first
+        end_x, end_y = moved.last
+        first = self._paths.first[body]
+        rest = [(xs[v - first] - from_x, ys[v - first] - from_y) for v in vertices]
+        sizes = [abs(c) for c in (*moved.first, *moved.last, *chain.from_iterable(rest))]
+        if not is_exact:  # the doubles are off by parts of what they are before the origin is left
+            sizes += [abs(c) for c in (min(xs), max(xs), min(ys), max(ys))]
         self._size = max(self._size, *sizes)
-        return [[(x + i, y + j, 0.0), (x + k, y + m, length)] for x, y in rest]
+        return [
+            [(x + start_x, y + start_y, 0.0), (x + end_x, y + end_y, self.length)] for x, y in rest
+        ]
 
     def rows(self, items: Items) -> Items:
         """Return the rows of some of the items."""
@@ -222,16 +229,19 @@ class Frame:
             along, firsts = self.ends @ DIRECTIONS.T, self._table.first_vertices
             low, high = (f.reduceat(along, firsts, 1) for f in (np.minimum, np.maximum))
         else:
-            along, (least, most, *_) = self._moves @ DIRECTIONS.T, self._paths.shapes
-            low, high = (of[self.bodies] + along for of in (least, most))
+            along, shapes = self._moves @ DIRECTIONS.T, self._paths.shapes
+            low, high = shapes.low[self.bodies] + along, shapes.high[self.bodies] + along
         return self._wider(low, high, self._paths.wide_bodies, self.bodies, DIRECTIONS)
 
     def places(self, bodies: Collection[int]) -> Floats | None:
         """Return the vertices of bodies at start and end; None if round or not translated."""
         if self._moves is None or self._paths.is_round:
             return None
-        first, shapes = [*self._paths.first, None], self._paths.shapes[2]
-        some = [shapes[first[i] : first[i + 1]] + self._moves[:, [self.row_of[i]]] for i in bodies]
+        some: list[Floats] = []
+        for i in bodies:
+            first = self._paths.first[i]
+            shape = self._paths.shapes.vertices[first : first + self._paths.bodies[i].size]
+            some.append(shape + self._moves[:, [self.row_of[i]]])
         return np.concatenate(some, axis=1)
 
     def _wider(

@@ -12,7 +12,7 @@ import numpy as np
 from exactpt.check_apart import are_near, require_passage
 from exactpt.motion.track import Incidence
 from exactpt.proof.frame import TINY
-from exactpt.proof.paths import Paths
+from exactpt.proof.paths import Item, Paths
 from exactpt.proof_scene import Poly, Rejected, Whole, surrounds, written
 
 
@@ -31,7 +31,7 @@ class Meetings:
     def _items_at(self, body: int, vertex: int) -> list[int]:
         """Return those of them with a vertex."""
         v = self._paths.first[body] + vertex
-        return [k for k in self.items(body) if v in self._paths.items[k][1:]]
+        return [k for k in self.items(body) if v in self._paths.items[k].ends]
 
     def at(
         self, pairs: Sequence[tuple[int, int]], touches: Sequence[Incidence], t: Fraction
@@ -46,7 +46,7 @@ class Meetings:
             far = self._paths.distance + self._paths.bodies[i].radius + self._paths.bodies[j].radius
             others = [self.items(j)[edge]] if edge >= 0 else self._items_at(j, u)
             for k, m in product(self._items_at(i, v), others):
-                ends = *items[k][1:], *items[m][1:]
+                ends = *items[k].ends, *items[m].ends
                 if are_near([self._paths.place(w, t) for w in ends], far):
                     return f"meet {written(t)} {k} {m}"
         place = {
@@ -57,7 +57,7 @@ class Meetings:
         for i, j in pairs:
             far = self._paths.distance + self._paths.bodies[i].radius + self._paths.bodies[j].radius
             for k, m in _candidates(self.items(i), self.items(j), items, place, float(far)):
-                if are_near([place[v] for v in (*items[k][1:], *items[m][1:])], far):
+                if are_near([place[v] for v in (*items[k].ends, *items[m].ends)], far):
                     return f"meet {written(t)} {k} {m}"
             for one, other in ((i, j), (j, i)):
                 body = self._paths.bodies[other]
@@ -89,13 +89,13 @@ class Meetings:
 def _candidates(
     one: Sequence[int],
     other: Sequence[int],
-    items: Sequence[tuple[int, int, int]],
+    items: Sequence[Item],
     place: Mapping[int, Whole],
     far: float,
 ) -> list[tuple[int, int]]:
     """Return pairs of items whose boxes come near each other, by doubles; the nearest first."""
     at = {v: (x / w, y / w) for v, (x, y, w) in place.items()}
-    ends = [np.array([[at[v] for v in items[k][1:]] for k in some]) for some in (one, other)]
+    ends = [np.array([[at[v] for v in items[k].ends] for k in some]) for some in (one, other)]
     low, high = ([e.min(axis=1) for e in ends], [e.max(axis=1) for e in ends])
     gaps = np.maximum(low[0][:, None] - high[1], low[1] - high[0][:, None]).clip(0)
     apart = np.hypot(gaps[..., 0], gaps[..., 1])
