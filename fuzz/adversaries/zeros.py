@@ -13,10 +13,10 @@ end of the edge, or the vertex moves along the edge and enters it there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import inf
 from random import Random
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple
 
 from librt.vecs import vec
 
@@ -27,29 +27,66 @@ from fuzz.adversaries.report import Part, Report, run
 
 __all__ = ["PARTS"]
 
-Coordinate: TypeAlias = tuple[QQ, QQ, QQ]
-"""The coefficients of 1, s, s^2."""
-Moving: TypeAlias = tuple[Coordinate, Coordinate]
-"""x and y of a vertex."""
 
+class Vector(NamedTuple):
+    """A point, or a vector between two, in rationals."""
+
+    x: QQ
+    y: QQ
+
+
+class Coordinate(NamedTuple):
+    """c0 + c1 s + c2 s^2."""
+
+    c0: QQ
+    c1: QQ
+    c2: QQ
+
+    def at(self, s: QQ) -> QQ:
+        """Return the value at s."""
+        return self.c0 + s * (self.c1 + s * self.c2)
+
+    def slope_at(self, s: QQ) -> QQ:
+        """Return the derivative at s."""
+        return self.c1 + 2 * s * self.c2
+
+
+class Moving(NamedTuple):
+    """The coordinates of a vertex."""
+
+    x: Coordinate
+    y: Coordinate
+
+    def at(self, s: QQ) -> Vector:
+        """Return the place at s."""
+        return Vector(self.x.at(s), self.y.at(s))
+
+
+class Edge(NamedTuple):
+    """An edge, and what it is at s*.
+
+    Attributes:
+        a, b: its ends.
+        u: the vector from a to b at s*.
+        length: the length of u.
+    """
+
+    a: Moving
+    b: Moving
+    u: Vector
+    length: QQ
+
+
+NOWHERE: Final = Vector(QQ(0), QQ(0))
 LENGTHS: Final = ((3, 4, 5), (-4, 3, 5), (5, -12, 13), (1, 0, 1), (0, 1, 1), (-8, 15, 17))
 """Vectors of rational length, and these."""
-
-
-def at(f: Coordinate, s: QQ) -> QQ:
-    """Return a coordinate at s."""
-    return f[0] + s * (f[1] + s * f[2])
-
-
-def place(v: Moving, s: QQ) -> tuple[QQ, QQ]:
-    """Return the place of a vertex at s."""
-    return at(v[0], s), at(v[1], s)
 
 
 def through(s: QQ, value: QQ, slope: QQ, bend: QQ) -> Coordinate:
     """Return the quadratic with a value and a slope at s, and a coefficient of s^2."""
     linear = slope - 2 * s * bend
-    return value - s * (linear + s * bend), linear, bend
+    constant = value - s * (linear + s * bend)
+    return Coordinate(constant, linear, bend)
 
 
 def instant(rng: Random) -> QQ:
@@ -83,15 +120,22 @@ def upward(x: QQ) -> float:
     return enclosing_floats(x)[1]
 
 
-def row_of(v: Moving, off: tuple[QQ, QQ]) -> tuple[list[float], QQ]:
+def row_of(v: Moving, off: Vector) -> tuple[list[float], QQ]:
     """Return the doubles that stand for a vertex, off by ``off``, and their largest error."""
-    row, worst = list[float](), QQ(0)
-    for (c0, c1, c2), o in zip(v, off, strict=True):
-        near = [nearest_float(c0 - o), nearest_float(c1), nearest_float(c2)]
-        errors = [abs(c - of_double(d)) for c, d in zip((c0, c1, c2), near, strict=True)]
+    row: list[float] = []
+    worst = QQ(0)
+    for exact, off_by in zip(v, off, strict=True):
+        aimed_at = exact.c0 - off_by, exact.c1, exact.c2
+        near = [nearest_float(c) for c in aimed_at]
+        worst = max(worst, error_of(near, exact))
         row += near
-        worst = max(worst, sum(errors, QQ(0)))
     return row, worst
+
+
+def error_of(near: Sequence[float], exact: Sequence[QQ]) -> QQ:
+    """Return a bound of the error of a polynomial in [-1, 1] whose coefficients are doubles."""
+    errors = [abs(c - of_double(d)) for c, d in zip(exact, near, strict=True)]
+    return sum(errors, QQ(0))
 
 
 class Search:
@@ -105,23 +149,28 @@ class Search:
 
     def value(self, s: QQ, side: int) -> int:
         """Return the sign of u x z - side R |u| at s."""
-        (ax, ay), (bx, by), (vx, vy) = (place(p, s) for p in (self.a, self.b, self.v))
-        ux, uy = bx - ax, by - ay
-        f = ux * (vy - ay) - uy * (vx - ax)
-        line = self.distance**2 * (ux * ux + uy * uy)
-        if not line:
-            return sign(f)
-        order = sign(f * f - line)  # of |f| and R |u|
+        u, z = self._vectors_at(s)
+        cross = u.x * z.y - u.y * z.x
+        squared = self.distance**2 * (u.x * u.x + u.y * u.y)  # (R |u|)^2
+        if not squared:
+            return sign(cross)
+        order = sign(cross * cross - squared)  # of |u x z| and R |u|
         if side > 0:
-            return order if f > 0 else -1
-        return -order if f < 0 else 1
+            return order if cross > 0 else -1
+        return -order if cross < 0 else 1
 
     def has_foot(self, s: QQ) -> bool:
         """Return whether the foot of the vertex is on the edge at s."""
-        (ax, ay), (bx, by), (vx, vy) = (place(p, s) for p in (self.a, self.b, self.v))
-        ux, uy = bx - ax, by - ay
-        along = ux * (vx - ax) + uy * (vy - ay)
-        return 0 <= along <= ux * ux + uy * uy
+        u, z = self._vectors_at(s)
+        along = u.x * z.x + u.y * z.y
+        return 0 <= along <= u.x * u.x + u.y * u.y
+
+    def _vectors_at(self, s: QQ) -> tuple[Vector, Vector]:
+        """Return u, from a to b, and z, from a to the vertex, at s."""
+        a = self.a.at(s)
+        b = self.b.at(s)
+        v = self.v.at(s)
+        return Vector(b.x - a.x, b.y - a.y), Vector(v.x - a.x, v.y - a.y)
 
 
 def polynomial_at(zero: Zero, s: QQ) -> QQ:
@@ -167,11 +216,16 @@ def judge(
 def expanded(roots: list[QQ], factor: QQ) -> list[QQ]:
     """Return the coefficients of factor (s - r1) (s - r2) ..., five of them."""
     f = [factor]
-    for r in roots:
-        f = [QQ(0), *f]
-        for k in range(len(f) - 1):
-            f[k] -= r * f[k + 1]
+    for root in roots:
+        times_s = [QQ(0), *f]
+        times_root = [root * c for c in f] + [QQ(0)]
+        f = [a - b for a, b in zip(times_s, times_root, strict=True)]
     return f + [QQ(0)] * (5 - len(f))
+
+
+def value_at(f: Sequence[QQ], s: QQ) -> QQ:
+    """Return a polynomial at s."""
+    return sum((c * s**k for k, c in enumerate(f)), QQ(0))
 
 
 def polynomials(rows: int, seed: int) -> Report:
@@ -182,7 +236,7 @@ def polynomials(rows: int, seed: int) -> Report:
         kind = rng.choice(["simple", "double", "double", "close", "four", "sum", "sum"])
         if kind == "sum":
             f = [QQ(0), *(number(rng) * rng.choice([1, 1, 8]) for _ in range(4))]
-            f[0] = -sum((f[k] * s**k for k in range(1, 5)), QQ(0))
+            f[0] = -value_at(f, s)
         else:
             near = s + QQ(rng.choice([-1, 1]), 2 ** rng.randint(1, 50))
             roots = {"simple": [s], "double": [s] * 2, "close": [s, near], "four": [s] * 4}[kind]
@@ -197,7 +251,7 @@ def polynomials(rows: int, seed: int) -> Report:
         set_polynomial(zero, f, near_f)
 
         def value(t: QQ, f: list[QQ] = f) -> int:
-            return sign(sum((c * t**k for k, c in enumerate(f)), QQ(0)))
+            return sign(value_at(f, t))
 
         judge(report, zero, s, value, None, (kind, near_f, zero.error))
     return report
@@ -206,8 +260,7 @@ def polynomials(rows: int, seed: int) -> Report:
 def set_polynomial(zero: Zero, f: list[QQ], near: list[float]) -> None:
     """Set a polynomial as computed, and the bound of its error."""
     zero.f0, zero.f1, zero.f2, zero.f3, zero.f4 = near
-    errors = [abs(c - of_double(d)) for c, d in zip(f, near, strict=True)]
-    zero.error = upward(sum(errors, QQ(0))) + TINY
+    zero.error = upward(error_of(near, f)) + TINY
     zero.has_foot = False
 
 
@@ -220,14 +273,16 @@ def misses(rows: int, seed: int) -> Report:
     """
     report, rng, zero = Report(), Random(seed), Zero()
     while report.rows < rows:
-        s, q, scale = instant(rng), number(rng), abs(number(rng)) or QQ(1)
+        s = instant(rng)
+        q = number(rng)
+        scale = abs(number(rng)) or QQ(1)
         small = QQ(rng.randint(1, 10**6), 2 ** rng.randint(20, 60))
         bend = scale * rng.choice([0, 1])
         if rng.random() < 0.5:
             end = rng.choice([-1, 1])
             roots = [end * (1 + small)]
             f = added(expanded(roots, scale), expanded([*roots, q, q], bend))
-            least = sum((c * end**k for k, c in enumerate(f)), QQ(0))
+            least = value_at(f, QQ(end))
         else:
             f = added(expanded([s, s], scale), expanded([s, s, q, q], bend))
             least = sum(map(abs, f)) * small
@@ -251,67 +306,115 @@ def added(f: list[QQ], g: list[QQ]) -> list[QQ]:
 # Pairs of features
 
 
-def edge(rng: Random, s: QQ, *, is_rigid: bool) -> tuple[Moving, Moving, tuple[QQ, QQ], QQ]:
-    """Return two ends of an edge, the edge at s and its length there."""
+def edge(rng: Random, s: QQ, *, is_rigid: bool) -> Edge:
+    """Return an edge of rational length at s."""
     scale = abs(number(rng)) or QQ(1)
     x, y, length = rng.choice(LENGTHS)
-    ux, uy = x * scale, y * scale
+    u = Vector(x * scale, y * scale)
     change = rng.choice([QQ(1), QQ(1, 2 ** rng.randint(0, 40))])
-    a = tuple(through(s, number(rng), number(rng) * change, number(rng) * change**2) for _ in "xy")
-    grow = [QQ(0)] * 4 if is_rigid else [number(rng) * change for _ in range(4)]
-    b = (
-        through(s, at(a[0], s) + ux, a[0][1] + 2 * s * a[0][2] + grow[0], a[0][2] + grow[1]),
-        through(s, at(a[1], s) + uy, a[1][1] + 2 * s * a[1][2] + grow[2], a[1][2] + grow[3]),
-    )
-    return (a[0], a[1]), b, (ux, uy), length * scale
+
+    def of_a() -> Coordinate:
+        """Return a coordinate of one end."""
+        return through(s, number(rng), number(rng) * change, number(rng) * change**2)
+
+    def of_b(a: Coordinate, along: QQ) -> Coordinate:
+        """Return a coordinate that is ``along`` more at s; the edge keeps that or changes it."""
+        faster = QQ(0) if is_rigid else number(rng) * change
+        bends = QQ(0) if is_rigid else number(rng) * change
+        return through(s, a.at(s) + along, a.slope_at(s) + faster, a.c2 + bends)
+
+    a = Moving(of_a(), of_a())
+    b = Moving(of_b(a.x, u.x), of_b(a.y, u.y))
+    return Edge(a, b, u, length * scale)
 
 
-def vertex(
-    rng: Random, s: QQ, a: Moving, u: tuple[QQ, QQ], foot: QQ, away: tuple[QQ, QQ]
-) -> Moving:
+def vertex(rng: Random, s: QQ, a: Moving, u: Vector, foot: QQ, away: Vector) -> Moving:
     """Return a vertex that is beside an edge at s: a + foot u + away; it crosses or goes along."""
-    x, y = at(a[0], s) + foot * u[0] + away[0], at(a[1], s) + foot * u[1] + away[1]
-    vx, vy = (c[1] + 2 * s * c[2] for c in a)
-    bend_x, bend_y = a[0][2], a[1][2]
+    end = a.at(s)
+    at_s = Vector(end.x + foot * u.x + away.x, end.y + foot * u.y + away.y)
+    velocity = Vector(a.x.slope_at(s), a.y.slope_at(s))
+    bend = Vector(a.x.c2, a.y.c2)
     along = number(rng)
     change = rng.choice([QQ(1), QQ(1, 2 ** rng.randint(0, 40))])
     how = rng.choice(["crosses", "crosses", "touches", "along", "at rest"])
     if how == "crosses":
-        vx, vy = number(rng) * change, number(rng) * change
-        bend_x, bend_y = number(rng) * change, number(rng) * change
-    elif how != "at rest":
-        vx, vy = vx + along * u[0] * change, vy + along * u[1] * change
-        if how == "touches":
-            bend_x, bend_y = number(rng) * change, number(rng) * change
-    return through(s, x, vx, bend_x), through(s, y, vy, bend_y)
+        velocity = small_vector(rng, change)
+        bend = small_vector(rng, change)
+    elif how in {"touches", "along"}:
+        velocity = Vector(
+            velocity.x + along * u.x * change,
+            velocity.y + along * u.y * change,
+        )
+    if how == "touches":
+        bend = small_vector(rng, change)
+    return Moving(
+        through(s, at_s.x, velocity.x, bend.x),
+        through(s, at_s.y, velocity.y, bend.y),
+    )
 
 
-def offsets(rng: Random, u: tuple[QQ, QQ], z: tuple[QQ, QQ], reach: QQ) -> list[tuple[QQ, QQ]]:
-    """Return errors of v, a and b, in x and in y; often those that change u x z the most."""
+def small_vector(rng: Random, size: QQ) -> Vector:
+    """Return two numbers times a size."""
+    return Vector(number(rng) * size, number(rng) * size)
+
+
+class Offsets(NamedTuple):
+    """What the rows of a vertex and of the ends of an edge are off."""
+
+    v: Vector
+    a: Vector
+    b: Vector
+
+
+def offsets(rng: Random, u: Vector, z: Vector, reach: QQ) -> Offsets:
+    """Return errors of v, a and b; often those that change u x z the most.
+
+    u x z = u_x z_y - u_y z_x grows most if z goes by the signs of (-u_y, u_x), and u by those of
+    (z_y, -z_x). z is v - a, and u is b - a, of which the end b is moved alone.
+    """
     size = rng.choice([QQ(0), QQ(1, 2 ** rng.randint(8, 60)), QQ(1, 2 ** rng.randint(40, 60))])
     size *= reach
     if rng.random() < 0.3:
         signs = [rng.choice([-1, 1]) for _ in range(6)]
     else:
         side = rng.choice([-1, 1])
-        dz = -side * (sign(u[1]) or 1), side * (sign(u[0]) or 1)
-        du = side * (sign(z[1]) or 1), -side * (sign(z[0]) or 1)
-        signs = [*dz, -dz[0], -dz[1], *du]
-    p, q = rng.choice([QQ(0), size]), size
-    off = [error * side for error, side in zip((p, p, q, q, q, q), signs, strict=True)]
-    return [(off[0], off[1]), (off[2], off[3]), (off[4], off[5])]
+        z_x = -side * (sign(u.y) or 1)
+        z_y = side * (sign(u.x) or 1)
+        u_x = side * (sign(z.y) or 1)
+        u_y = -side * (sign(z.x) or 1)
+        signs = [z_x, z_y, -z_x, -z_y, u_x, u_y]
+    v_x, v_y, a_x, a_y, b_x, b_y = signs
+    size_of_v = rng.choice([QQ(0), size])
+    return Offsets(
+        v=Vector(size_of_v * v_x, size_of_v * v_y),
+        a=Vector(size * a_x, size * a_y),
+        b=Vector(size * b_x, size * b_y),
+    )
 
 
-def set_vectors(zero: Zero, search: Search, offs: list[tuple[QQ, QQ]]) -> tuple[float, float]:
-    """Set z and u as computed, with the errors of rows; return both rho."""
-    v, v_error = row_of(search.v, offs[0])
-    a, a_error = row_of(search.a, offs[1])
-    b, b_error = row_of(search.b, offs[2])
-    p_rho, q_rho = upward(v_error), upward(max(a_error, b_error))
-    q = vec[float](a + b)
-    zero.z.set(vec[float](v), 0, q, 0, p_rho + q_rho)
-    zero.u.set(q, 1, q, 0, 2.0 * q_rho)
-    return p_rho, q_rho
+def set_vectors(zero: Zero, search: Search, off: Offsets) -> None:
+    """Set z and u as computed, with the errors of rows."""
+    v, v_error = row_of(search.v, off.v)
+    a, a_error = row_of(search.a, off.a)
+    b, b_error = row_of(search.b, off.b)
+    v_rho = upward(v_error)
+    edge_rho = upward(max(a_error, b_error))
+    of_vertex = vec[float](v)
+    of_edge = vec[float](a + b)
+    zero.z.set(of_vertex, 0, of_edge, 0, v_rho + edge_rho)
+    zero.u.set(of_edge, 1, of_edge, 0, 2.0 * edge_rho)
+
+
+def distance_of(rng: Random) -> tuple[QQ, QQ]:
+    """Return a distance, a double, and the true one that it stands for: 5 U of it off or less."""
+    distance = of_double(nearest_float(abs(number(rng)) or QQ(1)))
+    units = rng.choice([0, 5, rng.randint(0, 5)])
+    return distance, distance / (1 + of_double(U) * units)
+
+
+def size_of(v: Vector) -> QQ:
+    """Return the sum of the sizes of the coordinates."""
+    return abs(v.x) + abs(v.y)
 
 
 def foot_of(rng: Random) -> QQ:
@@ -326,10 +429,10 @@ def orientations(rows: int, seed: int) -> Report:
         s = instant(rng)
         a, b, u, _ = edge(rng, s, is_rigid=rng.random() < 0.5)
         foot = foot_of(rng)
-        v = vertex(rng, s, a, u, foot, (QQ(0), QQ(0)))
+        v = vertex(rng, s, a, u, foot, NOWHERE)
         search = Search(v, a, b, QQ(0))
-        z = foot * u[0], foot * u[1]
-        set_vectors(zero, search, offsets(rng, u, z, abs(u[0]) + abs(u[1])))
+        z = Vector(foot * u.x, foot * u.y)
+        set_vectors(zero, search, offsets(rng, u, z, size_of(u)))
         zero.orientation()
 
         def value(t: QQ, search: Search = search) -> int:
@@ -343,16 +446,17 @@ def distances(rows: int, seed: int) -> Report:
     """Check vertices at a distance of edges: R is off by up to 5 U of it, more than a table is."""
     report, rng, zero = Report(), Random(seed), Zero()
     while report.rows < rows:
-        s, is_rigid = instant(rng), rng.random() < 0.6
+        s = instant(rng)
+        is_rigid = rng.random() < 0.6
         a, b, u, length = edge(rng, s, is_rigid=is_rigid)
-        foot, side = foot_of(rng), rng.choice([-1, 1])
-        distance = of_double(nearest_float(abs(number(rng)) or QQ(1)))
-        exact = distance / (1 + of_double(U) * rng.choice([0, 5, rng.randint(0, 5)]))
-        away = -side * exact * u[1] / length, side * exact * u[0] / length
+        foot = foot_of(rng)
+        side = rng.choice([-1, 1])
+        distance, exact = distance_of(rng)
+        away = Vector(-side * exact * u.y / length, side * exact * u.x / length)
         v = vertex(rng, s, a, u, foot, away)
         search = Search(v, a, b, exact)
-        z = foot * u[0] + away[0], foot * u[1] + away[1]
-        set_vectors(zero, search, offsets(rng, u, z, abs(u[0]) + abs(u[1])))
+        z = Vector(foot * u.x + away.x, foot * u.y + away.y)
+        set_vectors(zero, search, offsets(rng, u, z, size_of(u)))
         zero.orientation()
         zero.subtract_length(side * nearest_float(distance), is_rigid=is_rigid)
 
@@ -368,21 +472,21 @@ def vertices(rows: int, seed: int) -> Report:
     report, rng, zero = Report(), Random(seed), Zero()
     while report.rows < rows:
         s = instant(rng)
-        distance = of_double(nearest_float(abs(number(rng)) or QQ(1)))
-        exact = distance / (1 + of_double(U) * rng.choice([0, 5, rng.randint(0, 5)]))
+        distance, exact = distance_of(rng)
         x, y, length = rng.choice(LENGTHS)
-        away = exact * x / length, exact * y / length
+        away = Vector(exact * x / length, exact * y / length)
         a, b, _, _ = edge(rng, s, is_rigid=True)
-        across = -away[1] / (exact or 1), away[0] / (exact or 1)  # it passes at the distance
+        across = Vector(QQ(-y, length), QQ(x, length))  # along it, the vertex passes by
         v = vertex(rng, s, a, across, QQ(0), away)
         search = Search(v, a, b, exact)
-        offs = offsets(rng, (-away[1], away[0]), (QQ(0), QQ(0)), abs(away[0]) + abs(away[1]))
-        set_vectors(zero, search, offs)
+        off = offsets(rng, Vector(-away.y, away.x), NOWHERE, size_of(away))
+        set_vectors(zero, search, off)
         zero.squared_distance(nearest_float(distance))
 
         def value(t: QQ, v: Moving = v, a: Moving = a, exact: QQ = exact) -> int:
-            (px, py), (qx, qy) = place(v, t), place(a, t)
-            return sign((px - qx) ** 2 + (py - qy) ** 2 - exact**2)
+            p = v.at(t)
+            q = a.at(t)
+            return sign((p.x - q.x) ** 2 + (p.y - q.y) ** 2 - exact**2)
 
         judge(report, zero, s, value, None, vars(search))
     return report
