@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from random import Random
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple
 
 from exactpt.filters.candidates import NO_EDGE, NO_VERTEX, Candidates
 from exactpt.filters.features import Filter
@@ -29,8 +29,30 @@ from fuzz.adversaries.report import Report, run
 
 __all__ = ["KINDS", "check", "pairs_of"]
 
-Key: TypeAlias = tuple[int, int, int, int, int]
-"""Piece and vertex, the other piece, its edge and its vertex."""
+
+class Key(NamedTuple):
+    """A pair of features, under the name that candidates have.
+
+    Attributes:
+        piece, vertex: the vertex of one piece.
+        other: the other piece.
+        edge: its edge, or `NO_EDGE`.
+        other_vertex: its vertex, or `NO_VERTEX`.
+    """
+
+    piece: int
+    vertex: int
+    other: int
+    edge: int
+    other_vertex: int
+
+
+class Shape(NamedTuple):
+    """Places, and the edges between them."""
+
+    places: tuple[Place, ...]
+    edges: tuple[tuple[int, int], ...]
+
 
 SQUARE: Final[tuple[tuple[int, int], ...]] = ((0, 0), (1, 0), (1, 1), (0, 1))
 DIRECTIONS: Final = ((1, 0), (0, 1), (3, 4), (-4, 3), (5, 12), (-1, 0), (0, -1))
@@ -38,22 +60,27 @@ DIRECTIONS: Final = ((1, 0), (0, 1), (3, 4), (-4, 3), (5, 12), (-1, 0), (0, -1))
 
 
 def exact_pairs(one: Moving, two: Moving) -> Iterator[tuple[Key, FeaturePair]]:
-    """Yield all pairs of features that matter, under the names that candidates have."""
-    p, q = tracks(one), tracks(two)
+    """Yield all pairs of features that matter."""
+    of_one = tracks(one)
+    of_two = tracks(two)
     has_radius = one.radius + two.radius > 0
-    for a, b, vs, ws, edges in ((0, 1, p, q, two.edges), (1, 0, q, p, one.edges)):
-        for v, vertex in enumerate(vs):
+    for piece, other, vertices, others, edges in (
+        (0, 1, of_one, of_two, two.edges),
+        (1, 0, of_two, of_one, one.edges),
+    ):
+        for v, vertex in enumerate(vertices):
             for e, (i, j) in enumerate(edges):
-                if i == j and has_radius:
-                    continue
-                ends = (ws[i],) if i == j else (ws[i], ws[j])
-                incidence = Incidence(a, v, b, e, -1)
-                yield (a, v, b, e, NO_VERTEX), FeaturePair(incidence, vertex, ends)
+                is_point = i == j
+                if is_point and has_radius:
+                    continue  # a pair of two vertices, below
+                ends = (others[i],) if is_point else (others[i], others[j])
+                incidence = Incidence(piece, v, other, e, -1)
+                yield Key(piece, v, other, e, NO_VERTEX), FeaturePair(incidence, vertex, ends)
     if has_radius:
-        for v, vertex in enumerate(p):
-            for w, other in enumerate(q):
+        for v, vertex in enumerate(of_one):
+            for w, other_vertex in enumerate(of_two):
                 incidence = Incidence(0, v, 1, -1, w)
-                yield (0, v, 1, NO_EDGE, w), FeaturePair(incidence, vertex, (other,))
+                yield Key(0, v, 1, NO_EDGE, w), FeaturePair(incidence, vertex, (other_vertex,))
 
 
 def is_before(t: float, time: AlgebraicNumber) -> bool:
@@ -66,53 +93,80 @@ def check(one: Moving, two: Moving, report: Report) -> None:
     table = Table()
     add_row(table, 0, one)
     add_row(table, 1, two)
-    low, high = max(table.start), min(table.end)
-    begin, end = max(one.start, two.start), min(one.end, two.end)
+    low = max(table.start)
+    high = min(table.end)
     if not low < high:
         return
     found = Candidates(math.inf)
     search = Filter(table)
     search.collect(0, 1, low, high, low, found)
     sharper = search.sharpen(found, low)
-    squared = (one.radius + two.radius) ** 2
-    exact = dict(exact_pairs(one, two))
-    start = AlgebraicNumber(begin)
-    times = {key: pair.first_time(squared, start, end) for key, pair in exact.items()}
-    certain = [t for t in times.values() if t is not None]
-    report.rows += len(times)
+    truth = Truth(one, two)
+    report.rows += len(truth.times)
     for name, rows in (("collect", found), ("sharpen", sharper)):
-        if rows.limit < math.inf and not any(not is_before(rows.limit, t) for t in certain):
-            report.wrong.append(f"{name}: no contact up to {rows.limit}: {one} {two}")
-        kept: dict[Key, list[tuple[float, float]]] = {}
-        for k in range(len(rows.low)):
-            key = rows.one[k], rows.vertex[k], rows.other[k], rows.edge[k], rows.other_vertex[k]
-            kept.setdefault(key, []).append((rows.low[k], rows.until[k]))
-            if rows.sure[k]:
-                report.count("sure")
-                after = AlgebraicNumber(of_double(rows.low[k]))
-                if exact[key].first_time(squared, after, of_double(rows.high[k])) is None:
-                    report.wrong.append(f"{name}: not sure: {key} {one} {two}")
-        for key, t in times.items():
-            if t is None or is_before(rows.limit, t):
-                continue
-            spans = kept.get(key, [])
-            if not any(is_before(first, t) and not is_before(last, t) for first, last in spans):
-                report.wrong.append(f"{name}: lost {key} at {float(t)}: {one} {two}")
-    report.count("contacts" if certain else "none")
+        for fault in faults_of(rows, truth, report):
+            report.wrong.append(f"{name}: {fault}: {one} {two}")
+    report.count("contacts" if truth.contacts else "none")
     if found.limit < math.inf:
         report.count("limited")
-    for key in set(times):
-        if times[key] is None and any(c == key for c in keys_of(sharper)):
+    kept = {key_of(sharper, k) for k in range(len(sharper.low)) if sharper.low[k] <= sharper.limit}
+    for key, time in truth.times.items():
+        if time is None and key in kept:
             report.count("candidates in vain")
 
 
-def keys_of(rows: Candidates) -> set[Key]:
-    """Return the names of the candidates up to the limit."""
-    return {
-        (rows.one[k], rows.vertex[k], rows.other[k], rows.edge[k], rows.other_vertex[k])
-        for k in range(len(rows.low))
-        if rows.low[k] <= rows.limit
-    }
+class Truth:
+    """The exact pairs of features of two pieces, and their times.
+
+    Attributes:
+        pairs: all pairs of features that matter.
+        times: the first time of each within both spans, or None.
+        contacts: those that there are.
+        squared: the square of the distance at which features touch.
+    """
+
+    def __init__(self, one: Moving, two: Moving) -> None:
+        begin = AlgebraicNumber(max(one.start, two.start))
+        end = min(one.end, two.end)
+        self.squared = (one.radius + two.radius) ** 2
+        self.pairs = dict(exact_pairs(one, two))
+        self.times = {
+            key: pair.first_time(self.squared, begin, end) for key, pair in self.pairs.items()
+        }
+        self.contacts = [time for time in self.times.values() if time is not None]
+
+    def touch_within(self, key: Key, low: float, high: float) -> bool:
+        """Return True if a pair touches after one time, up to another one."""
+        after = AlgebraicNumber(of_double(low))
+        return self.pairs[key].first_time(self.squared, after, of_double(high)) is not None
+
+
+def faults_of(rows: Candidates, truth: Truth, report: Report) -> Iterator[str]:
+    """Yield what is wrong with the candidates of two pieces; count those that are sure."""
+    is_contact_by_limit = any(not is_before(rows.limit, time) for time in truth.contacts)
+    if rows.limit < math.inf and not is_contact_by_limit:
+        yield f"no contact up to {rows.limit}"
+    spans: dict[Key, list[tuple[float, float]]] = {}
+    for k in range(len(rows.low)):
+        key = key_of(rows, k)
+        spans.setdefault(key, []).append((rows.low[k], rows.until[k]))
+        if rows.sure[k]:
+            report.count("sure")
+            if not truth.touch_within(key, rows.low[k], rows.high[k]):
+                yield f"not sure: {key}"
+    for key, time in truth.times.items():
+        if time is None or is_before(rows.limit, time):
+            continue
+        is_kept = any(
+            is_before(low, time) and not is_before(until, time) for low, until in spans.get(key, [])
+        )
+        if not is_kept:
+            yield f"lost {key} at {float(time)}"
+
+
+def key_of(rows: Candidates, k: int) -> Key:
+    """Return the name of a candidate."""
+    return Key(rows.one[k], rows.vertex[k], rows.other[k], rows.edge[k], rows.other_vertex[k])
 
 
 # Pieces
@@ -131,21 +185,20 @@ def numbers(rng: Random) -> Callable[[], QQ]:
     return number
 
 
-def shape(rng: Random, size: QQ) -> tuple[tuple[Place, ...], tuple[tuple[int, int], ...]]:
-    """Return places and edges: a point, a segment, a triangle or a square."""
+def shape(rng: Random, size: QQ) -> Shape:
+    """Return a point, a segment, a triangle or a square."""
     n = rng.choice([1, 1, 2, 3, 4])
-    k = rng.randint(0, 3)
-    corners = [SQUARE[(i + k) % 4] for i in range(n)]
-    turn = rng.choice(DIRECTIONS)
-    cosine, sine = turn
+    first = rng.randint(0, 3)
+    corners = [SQUARE[(first + i) % 4] for i in range(n)]
+    cosine, sine = rng.choice(DIRECTIONS)
     places = tuple(
         (size * (cosine * x - sine * y), size * (sine * x + cosine * y)) for x, y in corners
     )
     if n == 1:
-        return places, ((0, 0),)
+        return Shape(places, ((0, 0),))
     if n == 2:
-        return places, ((0, 1),)
-    return places, tuple((i, (i + 1) % n) for i in range(n))
+        return Shape(places, ((0, 1),))
+    return Shape(places, tuple((i, (i + 1) % n) for i in range(n)))
 
 
 def span(rng: Random, length: QQ) -> tuple[QQ, QQ]:
@@ -169,12 +222,14 @@ def moving(rng: Random, kind: int, number: Callable[[], QQ], length: QQ, radius:
     size = abs(number()) / 5 or QQ(1)
     places, edges = shape(rng, size)
     start, end = span(rng, length)
-    degree = {STRAIGHT: 1, CURVED: rng.choice([2, 3]), OWN: rng.choice([1, 2, 3])}.get(kind, 1)
+    degrees = {STRAIGHT: 1, CURVED: rng.choice([2, 3]), OWN: rng.choice([1, 2, 3])}
+    degree = degrees.get(kind, 1)
     path = polynomial(number, degree, length), polynomial(number, degree, length)
     frame: tuple[Polynomial, ...] = ()
     own: tuple[tuple[Polynomial, Polynomial], ...] = ()
     if kind == TURNING:
-        frame = (Polynomial([QQ(rng.randint(-2, 2), 3), QQ(rng.randint(-3, 3), 2) / length]),)
+        half_turn = Polynomial([QQ(rng.randint(-2, 2), 3), QQ(rng.randint(-3, 3), 2) / length])
+        frame = (half_turn,)
     elif kind == AFFINE:
         frame = tuple(
             Polynomial([rng.randint(-2, 2), QQ(rng.randint(-2, 2), 2) / length]) for _ in range(4)
@@ -183,12 +238,25 @@ def moving(rng: Random, kind: int, number: Callable[[], QQ], length: QQ, radius:
         x, y = path
         small = [polynomial(lambda: number() / 8, degree, length) for _ in range(2 * len(places))]
         own = tuple(
-            (x + dx + small[2 * v], y + dy + small[2 * v + 1]) for v, (dx, dy) in enumerate(places)
+            (x + dx + small_x, y + dy + small_y)
+            for (dx, dy), small_x, small_y in zip(places, small[::2], small[1::2], strict=True)
         )
         places = ()
     blur = size * rng.choice([QQ(0), QQ(0), QQ(1, 2 ** rng.randint(10, 50))])
     turn = rng.choice(TURNS) if kind == TURNING else TURNS[0]
-    return Moving(kind, start, end, places, path, frame, own, edges, radius, blur, turn)
+    return Moving(
+        kind=kind,
+        start=start,
+        end=end,
+        places=places,
+        path=path,
+        frame=frame,
+        own=own,
+        edges=edges,
+        radius=radius,
+        blur=blur,
+        turn=turn,
+    )
 
 
 def tied(rng: Random, one: Moving, two: Moving, length: QQ) -> Moving:
@@ -196,23 +264,31 @@ def tied(rng: Random, one: Moving, two: Moving, length: QQ) -> Moving:
     if one.kind != STRAIGHT or two.kind != STRAIGHT:
         return two
     t = QQ(rng.randint(0, 6), 6) * length
-    (x, y), (p, q) = rng.choice(one.places), rng.choice(two.places)
-    reach = one.radius + two.radius
-    ux, uy = rng.choice(DIRECTIONS)
-    unit = QQ(1, {1: 1, 5: 5, 7: 5, 17: 13}[abs(ux) + abs(uy)])
+    one_x, one_y = rng.choice(one.places)
+    two_x, two_y = rng.choice(two.places)
+    direction_x, direction_y = rng.choice(DIRECTIONS)
+    direction_length = math.isqrt(direction_x**2 + direction_y**2)
+    reach = (one.radius + two.radius) / direction_length
     how = rng.choice(["tangent", "corner", "together", "at the end"])
-    vx, vy = (f.exact_at(QQ(1)) - f.exact_at(QQ(0)) for f in one.path)
+    path_x, path_y = one.path
+    speed_x = path_x.exact_at(QQ(1)) - path_x.exact_at(QQ(0))
+    speed_y = path_y.exact_at(QQ(1)) - path_y.exact_at(QQ(0))
     if how == "tangent":
-        speed = QQ(rng.randint(1, 3)) / length
-        vx, vy = vx - uy * speed, vy + ux * speed
+        across = QQ(rng.randint(1, 3)) / length
+        speed_x -= direction_y * across
+        speed_y += direction_x * across
     elif how != "together":
-        speed = QQ(rng.randint(-3, 3)) / length
-        vx, vy = vx + ux * speed, vy + rng.choice([uy, -uy, 0]) * speed
+        along = QQ(rng.randint(-3, 3)) / length
+        speed_x += direction_x * along
+        speed_y += rng.choice([direction_y, -direction_y, 0]) * along
     if how == "at the end":
         t = min(one.end, two.end)
-    at_x = one.path[0].exact_at(t) + x + reach * ux * unit - p
-    at_y = one.path[1].exact_at(t) + y + reach * uy * unit - q
-    path = Polynomial([at_x - vx * t, vx]), Polynomial([at_y - vy * t, vy])
+    at_x = path_x.exact_at(t) + one_x + reach * direction_x - two_x
+    at_y = path_y.exact_at(t) + one_y + reach * direction_y - two_y
+    path = (
+        Polynomial([at_x - speed_x * t, speed_x]),
+        Polynomial([at_y - speed_y * t, speed_y]),
+    )
     return replace(two, path=path)
 
 
@@ -270,7 +346,8 @@ def checked(kinds: tuple[int, ...]) -> Callable[[int, int], Report]:
     """Return the check of a number of rows: pairs of features."""
 
     def part(rows: int, seed: int) -> Report:
-        report, pairs = Report(), pairs_of(kinds, Random(seed))
+        report = Report()
+        pairs = pairs_of(kinds, Random(seed))
         while report.rows < rows:
             check(*next(pairs), report)
         return report
