@@ -22,7 +22,20 @@ from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
 from exactpt.filters.rounding import U
-from exactpt.filters.rows import AFFINE, CURVED, GENERAL, OWN, STRAIGHT, TURNING, Errors, Table
+from exactpt.filters.rows import (
+    AFFINE,
+    CURVED,
+    EXACT,
+    FRAME,
+    GENERAL,
+    OWN,
+    PATH_X,
+    PATH_Y,
+    STRAIGHT,
+    TURNING,
+    Errors,
+    Table,
+)
 from exactpt.filters.starts import Starts
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from exactpt.pair.nearest_at import squared_from_segment
@@ -37,7 +50,16 @@ SMALL: Final = 100
 """Pairs of vertices up to which the distance of two shapes is computed."""
 
 Edges: TypeAlias = list[tuple[int, int]]
-Grid: TypeAlias = list[tuple[int, int]]
+
+
+class Node(NamedTuple):
+    """A point with integer coordinates."""
+
+    x: int
+    y: int
+
+
+Grid: TypeAlias = list[Node]
 
 
 class Shape(NamedTuple):
@@ -124,24 +146,27 @@ def drawn(kind: int, rows: int, seed: int) -> Iterator[Row]:
     """Yield pairs of a piece of one kind of motion and one of any kind."""
     rng = Random(seed)
     for _ in range(rows):
-        p, q = _shape(rng), _shape(rng)
+        p = _shape(rng)
+        q = _shape(rng)
         aim = rng.choice(AIMS)
+        is_random = aim is _at_random
         p, q = aim(rng, p, q)
-        if aim is not _at_random:
+        if not is_random:
             q = _nudged(rng, q)
-        yield _row(rng, kind, (p, q), is_random=aim is _at_random)
+        yield _row(rng, kind, (p, q), is_random=is_random)
 
 
 def _row(rng: Random, kind: int, shapes: tuple[Shape, Shape], *, is_random: bool) -> Row:
     """Return two pieces that have two shapes at some time."""
     t = rng.choice((0.0, 1.0, rng.uniform(-9.0, 9.0)))
-    pieces = [
-        _moving(rng, shapes[0], kind, t),
-        _moving(rng, shapes[1], rng.choice(list(KINDS.values())), t),
-    ]
-    rng.shuffle(pieces)
+    first_shape, second_shape = shapes
+    of_kind = _moving(rng, first_shape, kind, t)
+    other_kind = rng.choice(list(KINDS.values()))
+    pieces = [of_kind, _moving(rng, second_shape, other_kind, t)]
+    rng.shuffle(pieces)  # the filter may ask about them in either order
     table = Table()
-    i, j = (piece.add_to(table, k, t - 1.0, t + 1.0) for k, piece in enumerate(pieces))
+    i, j = (piece.add_to(table, body, t - 1.0, t + 1.0) for body, piece in enumerate(pieces))
+    # What is claimed is about the true pieces, which the rows of the table are only near.
     first, second = (Shape(piece.at(rational(t)), piece.edges) for piece in pieces)
     return Row(table, i, j, t, first, second, is_random)
 
@@ -182,49 +207,55 @@ def _squared_distance(p: Shape, q: Shape) -> QQ:
 
 def share_a_point(p: Shape, q: Shape) -> bool:
     """Return True if edges meet, or a vertex of one has an odd number of edges to its right."""
-    a, b = _on_grid(p, q)
-    if any(_meet(a[i], a[j], b[k], b[n]) for i, j in p.edges for k, n in q.edges):
-        return True
-    return any(_is_inside(v, a, p.edges) for v in b) or any(_is_inside(v, b, q.edges) for v in a)
+    of_p, of_q = _on_grid(p, q)
+    for i, j in p.edges:
+        for k, n in q.edges:
+            if _meet(of_p[i], of_p[j], of_q[k], of_q[n]):
+                return True
+    is_q_inside = any(_is_inside(v, of_p, p.edges) for v in of_q)
+    return is_q_inside or any(_is_inside(v, of_q, q.edges) for v in of_p)
 
 
 def _on_grid(p: Shape, q: Shape) -> tuple[Grid, Grid]:
     """Return the points times the common denominator of all coordinates."""
     points = p.points + q.points
-    scale = reduce(lcm, (int(c.denominator) for point in points for c in point))
-    grid = [
-        (
-            int(x.numerator) * (scale // int(x.denominator)),
-            int(y.numerator) * (scale // int(y.denominator)),
-        )
-        for x, y in points
-    ]
+    scale = QQ(reduce(lcm, (int(c.denominator) for point in points for c in point)))
+    grid = [Node(int(x * scale), int(y * scale)) for x, y in points]
     return grid[: len(p.points)], grid[len(p.points) :]
 
 
-def _turn(a: tuple[int, int], b: tuple[int, int], c: tuple[int, int]) -> int:
-    cross = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+def _turn(a: Node, b: Node, c: Node) -> int:
+    """Return 1 if the path a, b, c turns to the left, -1 to the right, 0 if it is straight."""
+    cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
     return (cross > 0) - (cross < 0)
 
 
-def _meet(a: tuple[int, int], b: tuple[int, int], c: tuple[int, int], d: tuple[int, int]) -> bool:
+def _meet(a: Node, b: Node, c: Node, d: Node) -> bool:
     """Return True if two closed segments have a common point."""
-    for i in (0, 1):
-        if max(a[i], b[i]) < min(c[i], d[i]) or max(c[i], d[i]) < min(a[i], b[i]):
-            return False
-    return _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0
+    # Segments of one line have it just if their boxes have one; for these all turns are 0.
+    if max(a.x, b.x) < min(c.x, d.x) or max(c.x, d.x) < min(a.x, b.x):
+        return False
+    if max(a.y, b.y) < min(c.y, d.y) or max(c.y, d.y) < min(a.y, b.y):
+        return False
+    is_ab_between = _turn(c, d, a) * _turn(c, d, b) <= 0
+    is_cd_between = _turn(a, b, c) * _turn(a, b, d) <= 0
+    return is_ab_between and is_cd_between
 
 
-def _is_inside(v: tuple[int, int], points: Grid, edges: Edges) -> bool:
+def _is_inside(v: Node, points: Grid, edges: Edges) -> bool:
     """Return True if an odd number of edges of rings crosses the ray to the right of a point."""
-    if all(j - i in {0, 1} for i, j in edges):
-        return False  # chains and points
+    is_open = all(j - i in {0, 1} for i, j in edges)  # a chain, or a point
+    if is_open:
+        return False
     inside = False
     for i, j in edges:
-        a, b = points[i], points[j]
-        if (a[1] > v[1]) != (b[1] > v[1]):
-            upward = 1 if b[1] > a[1] else -1
-            inside ^= _turn(a, b, v) * upward > 0
+        a = points[i]
+        b = points[j]
+        if (a.y > v.y) == (b.y > v.y):
+            continue  # both ends are on one side of the ray's line
+        upward = 1 if b.y > a.y else -1
+        is_right_of_v = _turn(a, b, v) * upward > 0
+        inside ^= is_right_of_v
     return inside
 
 
@@ -236,10 +267,16 @@ def _shape(rng: Random) -> Shape:
 
 
 def _ring(first: int, n: int) -> Edges:
+    """Return the edges of a ring of n vertices."""
     return [(first + i, first + (i + 1) % n) for i in range(n)]
 
 
+TWO_SQUARES: Final = _ring(0, 4) + _ring(4, 4)
+"""The edges of two rings of four vertices."""
+
+
 def _some(rng: Random, n: int) -> list[Point]:
+    """Return points of a small grid."""
     return [(QQ(rng.randint(-9, 9)), QQ(rng.randint(-9, 9))) for _ in range(n)]
 
 
@@ -272,28 +309,36 @@ def _star_of(rng: Random, n: int) -> Shape:
 
 def _corner(rng: Random) -> Shape:
     """An L on the grid: many vertices at equal heights."""
-    w, h = rng.randint(2, 9), rng.randint(2, 9)
-    u, v = rng.randint(1, w - 1), rng.randint(1, h - 1)
-    corners = [(0, 0), (w, 0), (w, v), (u, v), (u, h), (0, h)]
+    width = rng.randint(2, 9)
+    height = rng.randint(2, 9)
+    x = rng.randint(1, width - 1)
+    y = rng.randint(1, height - 1)
+    corners = [(0, 0), (width, 0), (width, y), (x, y), (x, height), (0, height)]
     return Shape([(QQ(x), QQ(y)) for x, y in corners], _ring(0, 6))
 
 
-def _rectangle(x: int, y: int, w: int, h: int) -> list[Point]:
-    corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
-    return [(QQ(a), QQ(b)) for a, b in corners]
+def _rectangle(left: int, bottom: int, width: int, height: int) -> list[Point]:
+    """Return the corners of a rectangle, counter-clockwise."""
+    right = left + width
+    top = bottom + height
+    corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    return [(QQ(x), QQ(y)) for x, y in corners]
 
 
 def _frame(rng: Random) -> Shape:
     """A square with a hole."""
     size = rng.randint(4, 9)
+    outline = _rectangle(0, 0, size, size)
     hole = _rectangle(1, 1, size - 2, size - 2)
-    return Shape(_rectangle(0, 0, size, size) + hole[::-1], _ring(0, 4) + _ring(4, 4))
+    clockwise = hole[::-1]
+    return Shape(outline + clockwise, TWO_SQUARES)
 
 
 def _two_parts(rng: Random) -> Shape:
     """Two squares that are far from each other."""
-    x, y = rng.randint(9, 20), rng.randint(-9, 9)
-    return Shape(_rectangle(0, 0, 2, 2) + _rectangle(x, y, 2, 1), _ring(0, 4) + _ring(4, 4))
+    x = rng.randint(9, 20)
+    y = rng.randint(-9, 9)
+    return Shape(_rectangle(0, 0, 2, 2) + _rectangle(x, y, 2, 1), TWO_SQUARES)
 
 
 SHAPES: Final = (_point, _chain, _star, _star, _large, _corner, _frame, _two_parts)
@@ -316,18 +361,24 @@ def _on(rng: Random, shape: Shape) -> Point:
 
 def _at_random(rng: Random, p: Shape, q: Shape) -> tuple[Shape, Shape]:
     """Make both of one size, and place them so that their boxes meet often."""
-    p, q = (_scaled(s, 9 / _size(s)) for s in (p, q))
-    dx, dy = (rational(rng.uniform(-27.0, 27.0)) for _ in range(2))
+    p = _scaled(p, 9 / _size(p))
+    q = _scaled(q, 9 / _size(q))
+    dx = rational(rng.uniform(-27.0, 27.0))
+    dy = rational(rng.uniform(-27.0, 27.0))
     return p, _shifted(q, dx, dy)
 
 
 def _size(shape: Shape) -> QQ:
+    """Return the largest size of a coordinate; 1 if all are 0."""
     return max(abs(c) for point in shape.points for c in point) or QQ(1)
 
 
 def _center(shape: Shape) -> Point:
-    x, y = (sum((point[axis] for point in shape.points), QQ(0)) for axis in (0, 1))
-    return x / len(shape.points), y / len(shape.points)
+    """Return the mean of the vertices."""
+    n = len(shape.points)
+    x = sum((x for x, _ in shape.points), QQ(0))
+    y = sum((y for _, y in shape.points), QQ(0))
+    return x / n, y / n
 
 
 def _touching(rng: Random, p: Shape, q: Shape) -> tuple[Shape, Shape]:
@@ -356,29 +407,36 @@ def _nested(rng: Random, p: Shape, q: Shape) -> tuple[Shape, Shape]:
     small = _scaled(q, rng.choice((QQ(1, 20), QQ(1, 100), power(-40))))
     if _size(small) > _size(p) / 9:
         small = _scaled(small, _size(p) / 9 / _size(small))
-    (x, y), (mx, my) = rng.choice(p.points), _center(p)
-    part = rng.choice((QQ(1), QQ(1, 2), power(-30)))
+    corner_x, corner_y = rng.choice(p.points)
+    center_x, center_y = _center(p)
+    part = rng.choice((QQ(1), QQ(1, 2), power(-30)))  # of the way from the corner to the center
+    x = corner_x + part * (center_x - corner_x)
+    y = corner_y + part * (center_y - corner_y)
     vx, vy = rng.choice(small.points)
-    return p, _shifted(small, x + part * (mx - x) - vx, y + part * (my - y) - vy)
+    return p, _shifted(small, x - vx, y - vy)
 
 
 def _at_a_height(rng: Random, p: Shape, _: Shape) -> tuple[Shape, Shape]:
     """Place a small square at the height of a vertex of p, to the left of it."""
-    x, y = rng.choice(p.points)
-    left = min(a for a, _ in p.points)
-    at = left + (x - left) * QQ(rng.randint(1, 7), 8)
-    side = _size(p) / 64
-    points = [(at + side * a, y + side * b) for a, b in _rectangle(0, 0, 1, 1)]
-    return p, Shape(points, _ring(0, 4))
+    vertex_x, y = rng.choice(p.points)
+    left = min(x for x, _ in p.points)
+    x = left + (vertex_x - left) * QQ(rng.randint(1, 7), 8)
+    return p, Shape(_square((x, y), _size(p) / 64), _ring(0, 4))
 
 
 def _part_inside(rng: Random, p: Shape, _: Shape) -> tuple[Shape, Shape]:
     """Place one of two small squares, which are one piece, inside p, and the other one outside."""
-    side, (x, y) = _size(p) / 50, _center(p)
-    square = [(x + side * a, y + side * b) for a, b in _rectangle(0, 0, 1, 1)]
-    far = [(a + 4 * _size(p), b) for a, b in square]
-    parts = square + far if rng.random() < 0.5 else far + square
-    return p, Shape(parts, _ring(0, 4) + _ring(4, 4))
+    size = _size(p)
+    inside = _square(_center(p), size / 50)
+    outside = [(x + 4 * size, y) for x, y in inside]
+    parts = inside + outside if rng.random() < 0.5 else outside + inside
+    return p, Shape(parts, TWO_SQUARES)
+
+
+def _square(corner: Point, side: QQ) -> list[Point]:
+    """Return the corners of a square, from the lower left one on."""
+    x, y = corner
+    return [(x + side * dx, y + side * dy) for dx, dy in _rectangle(0, 0, 1, 1)]
 
 
 AIMS: Final = (
@@ -393,12 +451,16 @@ AIMS: Final = (
 )
 
 
+NUDGES: Final = (0, 0, 0, 1, -1, 3, -20, 1000)
+"""Numbers of roundings by which a shape is moved."""
+
+
 def _nudged(rng: Random, q: Shape) -> Shape:
     """Move a shape by a few roundings of its coordinates, or not at all."""
-    size = max(abs(c) for point in q.points for c in point)
-    steps = [rng.choice((0, 0, 0, 1, -1, 3, -20, 1000)) for _ in range(2)]
-    dx, dy = (size * step * rational(U) for step in steps)
-    return _shifted(q, dx, dy)
+    rounding = max(abs(c) for point in q.points for c in point) * rational(U)
+    steps_x = rng.choice(NUDGES)
+    steps_y = rng.choice(NUDGES)
+    return _shifted(q, steps_x * rounding, steps_y * rounding)
 
 
 def _moving(rng: Random, shape: Shape, kind: int, t: float) -> Piece:
@@ -416,60 +478,141 @@ def _since_0(rng: Random, shape: Shape, kind: int, at: QQ) -> Piece:
         return _own(rng, shape, at)
     if kind == GENERAL:
         return _general(rng, shape, at)
-    degrees = {STRAIGHT: [2, 2], CURVED: [4, 4], TURNING: [4, 4, 2], AFFINE: [4, 4, 2, 2, 2, 2]}
-    frame: list[Polynomial] = [
-        tuple(QQ(rng.randint(-4, 4)) for _ in range(n)) + (QQ(0),) * (4 - n) for n in degrees[kind]
-    ]
-    a, b, c, d = QQ(1), QQ(0), QQ(0), QQ(1)
+    frame = [_polynomial(rng, terms) for terms in TERMS[kind]]
     turn = rng.choice(TURNS) if kind == TURNING else TURNS[0]
-    if kind == TURNING:
-        h = value(frame[2], at)
-        cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
-        a, c = cosine * turn[0] - sine * turn[1], sine * turn[0] + cosine * turn[1]
-        b, d = -c, a
-    elif kind == AFFINE:
-        a, b, c, d = (value(f, at) for f in frame[2:])
-        if a * d == b * c:
-            return _since_0(rng, shape, kind, at)
-    px, py, det = value(frame[0], at), value(frame[1], at), a * d - b * c
-    around = [(x - px, y - py) for x, y in shape.points]
-    places = [((d * x - b * y) / det, (a * y - c * x) / det) for x, y in around]
+    matrix = _matrix(frame[2:], kind, turn, at)
+    if matrix.determinant == 0:
+        return _since_0(rng, shape, kind, at)
+    path_x = value(frame[0], at)
+    path_y = value(frame[1], at)
+    places = [matrix.solve(x - path_x, y - path_y) for x, y in shape.points]
     near, error = _near(rng, places)
-    near_frame = [nearest_float(v) for f in frame for v in f]
-    errors = Errors(error, 0.0, 0.0)
-    return Piece(kind, places, frame, [], near, near_frame, [], errors, shape.edges, turn=turn)
+    return Piece(
+        kind=kind,
+        places=places,
+        frame=frame,
+        own=[],
+        near_places=near,
+        near_frame=[nearest_float(c) for polynomial in frame for c in polynomial],
+        near_own=[],
+        errors=Errors(place=error, path=0.0, speed=0.0),
+        edges=shape.edges,
+        turn=turn,
+    )
+
+
+TERMS: Final = {
+    STRAIGHT: [2, 2],
+    CURVED: [4, 4],
+    TURNING: [4, 4, 2],
+    AFFINE: [4, 4, 2, 2, 2, 2],
+}
+"""How many coefficients the polynomials of a frame have: the path, then the turn or the matrix."""
+
+
+class Matrix(NamedTuple):
+    """(a, b; c, d)."""
+
+    a: QQ
+    b: QQ
+    c: QQ
+    d: QQ
+
+    @property
+    def determinant(self) -> QQ:
+        """a d - b c."""
+        return self.a * self.d - self.b * self.c
+
+    def solve(self, x: QQ, y: QQ) -> Point:
+        """Return what the matrix takes to (x, y), by Cramer's rule."""
+        place_x = (self.d * x - self.b * y) / self.determinant
+        place_y = (self.a * y - self.c * x) / self.determinant
+        return place_x, place_y
+
+
+def _matrix(polynomials: list[Polynomial], kind: int, turn: tuple[QQ, QQ], at: QQ) -> Matrix:
+    """Return the matrix of a piece at a time; of the rest of its frame, after the path."""
+    values = [value(f, at) for f in polynomials]
+    if kind == AFFINE:
+        return Matrix(*values)
+    if kind != TURNING:
+        return Matrix(QQ(1), QQ(0), QQ(0), QQ(1))
+    (h,) = values
+    cosine = (1 - h * h) / (1 + h * h)
+    sine = 2 * h / (1 + h * h)
+    turn_cosine, turn_sine = turn
+    cosine_of_both = cosine * turn_cosine - sine * turn_sine
+    sine_of_both = sine * turn_cosine + cosine * turn_sine
+    return Matrix(cosine_of_both, -sine_of_both, sine_of_both, cosine_of_both)
+
+
+def _polynomial(rng: Random, terms: int) -> Polynomial:
+    """Return small coefficients, and zeros up to four of them."""
+    small = tuple(QQ(rng.randint(-4, 4)) for _ in range(terms))
+    return small + (QQ(0),) * (4 - terms)
 
 
 def _own(rng: Random, shape: Shape, t: QQ) -> Piece:
     """Return a piece of which each vertex moves by itself."""
 
     def through(x: QQ) -> Polynomial:
-        slope, bend = QQ(rng.randint(-3, 3)), QQ(rng.randint(-3, 3))
+        """Return a parabola that has this value at t."""
+        slope = QQ(rng.randint(-3, 3))
+        bend = QQ(rng.randint(-3, 3))
         return x - slope * t - bend * t * t, slope, bend, QQ(0)
 
     own = [(through(x), through(y)) for x, y in shape.points]
-    near = [nearest_float(c) for pair in own for f in pair for c in f]
-    return Piece(OWN, [], [], own, [], [0.0] * 24, near, Errors(0.0, 0.0, 0.0), shape.edges)
+    return Piece(
+        kind=OWN,
+        places=[],
+        frame=[],
+        own=own,
+        near_places=[],
+        near_frame=[0.0] * int(FRAME),
+        near_own=[nearest_float(c) for of_vertex in own for f in of_vertex for c in f],
+        errors=EXACT,
+        edges=shape.edges,
+    )
 
 
 def _general(rng: Random, shape: Shape, t: QQ) -> Piece:
     """Return a piece of vertices that are quotients of polynomials of degree 5."""
 
     def through(x: QQ) -> Polynomial:
+        """Return a polynomial of degree 5 that has this value at t."""
         rest = [QQ(rng.randint(-3, 3), 2**i) for i in range(1, 6)]
         return x - value((QQ(0), *rest), t), *rest
 
-    frame = [0.0] * 24
-    frame[0], frame[4] = (rng.choice((0.0, nearest_float(c), 1.0 / 3.0)) for c in shape.points[0])
-    ax, ay = rational(frame[0]), rational(frame[4])
+    def near(c: QQ) -> float:
+        """Return the coordinate of an anchor, near a vertex or not."""
+        return rng.choice((0.0, nearest_float(c), 1.0 / 3.0))
+
+    first_x, first_y = shape.points[0]
+    anchor_x = near(first_x)
+    anchor_y = near(first_y)
+    frame = [0.0] * int(FRAME)
+    frame[int(PATH_X)] = anchor_x
+    frame[int(PATH_Y)] = anchor_y
     vertices: list[tuple[Polynomial, Polynomial, Polynomial]] = []
     for x, y in shape.points:
         c = QQ(rng.randint(-3, 3), 8)
         w = (QQ(1), 2 * c, c * c + QQ(1, 64), QQ(0), QQ(0), QQ(0))  # (1 + c t)^2 + (t / 8)^2
-        at_t = value(w, t)
-        vertices.append((through((x - ax) * at_t), through((y - ay) * at_t), w))
-    exact = Errors(0.0, 0.0, 0.0)
-    return Piece(GENERAL, [], [], [], [], frame, [], exact, shape.edges, general=vertices)
+        w_at_t = value(w, t)
+        of_x = through((x - rational(anchor_x)) * w_at_t)
+        of_y = through((y - rational(anchor_y)) * w_at_t)
+        vertices.append((of_x, of_y, w))
+    return Piece(
+        kind=GENERAL,
+        places=[],
+        frame=[],
+        own=[],
+        near_places=[],
+        near_frame=frame,
+        near_own=[],
+        errors=EXACT,
+        edges=shape.edges,
+        general=vertices,
+    )
 
 
 def _near(rng: Random, places: list[Point]) -> tuple[list[tuple[float, float]], float]:
@@ -481,10 +624,16 @@ def _near(rng: Random, places: list[Point]) -> tuple[list[tuple[float, float]], 
         return nearest_float(c + rng.choice((-1, 1)) * off)
 
     near = [(moved(x), moved(y)) for x, y in places]
-    pairs = zip(near, places, strict=True)
-    worst = max(abs(rational(v) - c) for one, two in pairs for v, c in zip(one, two, strict=True))
+    errors = [
+        abs(rational(near_coordinate) - coordinate)
+        for near_place, place in zip(near, places, strict=True)
+        for near_coordinate, coordinate in zip(near_place, place, strict=True)
+    ]
+    worst = max(errors)
     bound = nearest_float(worst)
-    return near, bound if rational(bound) >= worst else bound * (1.0 + 2.0 * U)
+    if rational(bound) < worst:  # it was rounded down
+        bound *= 1.0 + 2.0 * U
+    return near, bound
 
 
 def main() -> None:
