@@ -16,7 +16,7 @@ import math
 import sys
 from dataclasses import dataclass
 from random import Random
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +24,7 @@ from librt.vecs import vec
 
 from exactpt.filters import boxes
 from exactpt.filters.rounding import U
-from exactpt.filters.rows import AFFINE, GENERAL, OWN, TURNING, Table
+from exactpt.filters.rows import AFFINE, GENERAL, OWN, PATH_X, PATH_Y, TURNING, Table
 from exactpt.kernel.numbers import QQ, nearest_float, rational
 from fuzz.adversaries.pieces import KINDS, STYLES, Piece, made
 
@@ -33,6 +33,11 @@ __all__ = ["Found", "attack_pieces", "attack_strips"]
 Truths: TypeAlias = npt.NDArray[np.bool_]
 
 UNIT: Final = 16.0 * U
+"""The bound of rounding, relative to the sizes of all terms."""
+AXES: Final = (int(PATH_X), int(PATH_Y))
+"""Where the polynomials of x and y begin, in a frame and in the row of a vertex (`OWN_Y`)."""
+TERMS: Final = 4
+"""Coefficients of each of them."""
 
 
 @dataclass
@@ -63,9 +68,30 @@ class Found:
         return f"{name:26}{self.rows:>12,}{self.near:>12,}{self.least:>10.4f}{self.wrong:>7}"
 
 
+class Drift(NamedTuple):
+    """What is common to all bodies along one axis, and taken away.
+
+    Attributes:
+        speed: the coefficient of t.
+        bend: that of t^2.
+    """
+
+    speed: float
+    bend: float
+
+    def at(self, t: QQ) -> QQ:
+        """Return where it is at a time."""
+        return (rational(self.speed) + rational(self.bend) * t) * t
+
+    def size(self, latest: float) -> float:
+        """Return the sum of the sizes of its terms up to a time."""
+        return (abs(self.speed) + abs(self.bend) * latest) * latest
+
+
 def attack_pieces(kind: int, rows: int, seed: int) -> Found:
     """Attack the boxes of pieces of one kind."""
-    rng, found = Random(seed), Found()
+    rng = Random(seed)
+    found = Found()
     while found.rows < rows:
         style = rng.choice(STYLES)
         piece = made(rng, kind, style, rng.choice((1, 2, 3, 4, 6)))
@@ -82,42 +108,37 @@ def _attack_window(rng: Random, piece: Piece, style: str, found: Found) -> None:
     if rng.random() < 0.5:
         low += piece.origin
     high = low + rng.choice((0.0, 1.0, rng.random())) * 2.0 ** -rng.randint(0, 45)
-    drift_x, drift_y = _drift(rng, piece, 0), _drift(rng, piece, 1)
-    drift = boxes.Drift(drift_x[0], drift_y[0], drift_x[1], drift_y[1])
+    drift_x = _drift(rng, piece, 0)
+    drift_y = _drift(rng, piece, 1)
+    drift = boxes.Drift(drift_x.speed, drift_y.speed, drift_x.bend, drift_y.bend)
     table = Table()
     k = piece.add_to(table, 0, low, high)
-    table.radius[k] = radius = rng.choice((0.0, 0.0, 1.0 / 3.0))
+    radius = rng.choice((0.0, 0.0, 1.0 / 3.0))
+    table.radius[k] = radius
     left, right, bottom, top = boxes.of_piece(table, k, low, high, drift)
-    first, last = rational(low), rational(high)
-    times = (first, last, first + (last - first) * rng.randint(1, 9) / 10)
+    first = rational(low)
+    last = rational(high)
+    between = first + (last - first) * rng.randint(1, 9) / 10
     latest = max(abs(low), abs(high))
     since = max(abs(low - piece.origin), abs(high - piece.origin))
-    for t in times:
+    for t in (first, last, between):
         for v, (x, y) in enumerate(piece.at(t)):
-            size_x = _size(piece, v, 0, since) + 2.0 * _size_of_drift(drift_x, latest)
-            size_y = _size(piece, v, 1, since) + 2.0 * _size_of_drift(drift_y, latest)
-            _check(x - _along(drift_x, t), left, right, radius, size_x, found)
-            _check(y - _along(drift_y, t), bottom, top, radius, size_y, found)
+            size_x = _size(piece, v, 0, since) + 2.0 * drift_x.size(latest)
+            size_y = _size(piece, v, 1, since) + 2.0 * drift_y.size(latest)
+            _check(x - drift_x.at(t), left, right, radius, size_x, found)
+            _check(y - drift_y.at(t), bottom, top, radius, size_y, found)
 
 
-def _drift(rng: Random, piece: Piece, axis: int) -> tuple[float, float]:
+def _drift(rng: Random, piece: Piece, axis: int) -> Drift:
     """Return a common velocity and bend: none, those of the piece, or much larger ones."""
-    speed, bend = 0.0, 0.0
+    own = Drift(0.0, 0.0)
     if piece.kind != GENERAL:
         numbers = piece.near_own if piece.kind == OWN else piece.near_frame
-        speed, bend = numbers[4 * axis + 1 : 4 * axis + 3]
-    speed = rng.choice((0.0, speed, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**40))
-    return speed, rng.choice((0.0, bend, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**30))
-
-
-def _along(drift: tuple[float, float], t: QQ) -> QQ:
-    """Return where a drift is at a time."""
-    speed, bend = map(rational, drift)
-    return (speed + bend * t) * t
-
-
-def _size_of_drift(drift: tuple[float, float], latest: float) -> float:
-    return (abs(drift[0]) + abs(drift[1]) * latest) * latest
+        polynomial = numbers[AXES[axis] : AXES[axis] + TERMS]
+        own = Drift(speed=polynomial[1], bend=polynomial[2])
+    speed = rng.choice((0.0, own.speed, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**40))
+    bend = rng.choice((0.0, own.bend, rng.uniform(-9, 9), rng.uniform(-1, 1) * 2.0**30))
+    return Drift(speed, bend)
 
 
 def _size(piece: Piece, v: int, axis: int, latest: float) -> float:
@@ -125,18 +146,22 @@ def _size(piece: Piece, v: int, axis: int, latest: float) -> float:
     if piece.kind == OWN:
         return _reach(piece.own[v][axis], latest)
     if piece.kind == GENERAL:  # w is about 1 at most times at which there is a model
-        return _reach(piece.general[v][axis], latest) + abs(piece.near_frame[4 * axis])
-    size = _reach(piece.frame[axis], latest)
-    xs, ys = (max(abs(place[i]) for place in piece.near_places) for i in (0, 1))
+        anchor = piece.near_frame[AXES[axis]]
+        return _reach(piece.general[v][axis], latest) + abs(anchor)
+    path = _reach(piece.frame[axis], latest)
+    largest_x = max(abs(x) for x, _ in piece.near_places)
+    largest_y = max(abs(y) for _, y in piece.near_places)
     if piece.kind == AFFINE:
-        along_x, along_y = piece.frame[2 + 2 * axis : 4 + 2 * axis]
-        return size + _reach(along_x, latest) * xs + _reach(along_y, latest) * ys
+        a, b, c, d = piece.frame[2:]
+        of_x, of_y = (a, b) if axis == 0 else (c, d)
+        return path + _reach(of_x, latest) * largest_x + _reach(of_y, latest) * largest_y
     if piece.kind == TURNING:
-        return size + math.hypot(xs, ys)
-    return size + (xs, ys)[axis]
+        return path + math.hypot(largest_x, largest_y)
+    return path + (largest_x if axis == 0 else largest_y)
 
 
 def _reach(f: tuple[QQ, ...], latest: float) -> float:
+    """Return the sum of the sizes of the terms of a polynomial up to a time."""
     return sum(abs(nearest_float(c)) * latest**i for i, c in enumerate(f))
 
 
@@ -145,8 +170,10 @@ def _check(x: QQ, low: float, high: float, radius: float, size: float, found: Fo
     found.rows += 1
     if low == -math.inf or high == math.inf:
         return
-    exact = rational(radius)
-    gap = min(x - exact - rational(low), rational(high) - x - exact)
+    exact_radius = rational(radius)
+    above_low = x - exact_radius - rational(low)
+    below_high = rational(high) - x - exact_radius
+    gap = min(above_low, below_high)
     if gap < 0:
         found.fail(f"{x} is outside of [{low!r}, {high!r}] by {nearest_float(-gap)}")
     bound = UNIT * size
@@ -158,7 +185,8 @@ def _check(x: QQ, low: float, high: float, radius: float, size: float, found: Fo
 
 def attack_strips(rows: int, seed: int) -> Found:
     """Attack the pairs of boxes that meet; near are those that have only a side in common."""
-    rng, found = Random(seed), Found()
+    rng = Random(seed)
+    found = Found()
     while found.rows < rows:
         sides = _sides(rng)
         split = rng.choice((0, 0, rng.randrange(len(sides) + 1)))
@@ -172,8 +200,10 @@ def attack_strips(rows: int, seed: int) -> Found:
         right = {(int(i), int(j)) for i, j in np.argwhere(np.triu(meet, 1))}
         found.rows += len(sides) * (len(sides) - 1) // 2
         found.near += int(np.triu(meet & touch, 1).sum())
-        if len(claimed) != len(set(claimed)) or set(claimed) != right:
-            lost, more = right - set(claimed), set(claimed) - right
+        has_repeated = len(claimed) != len(set(claimed))
+        lost = right - set(claimed)
+        more = set(claimed) - right
+        if has_repeated or lost or more:
             found.fail(f"{len(sides)} boxes, split {split}: lost {lost}, more {more}")
     return found
 
@@ -208,9 +238,11 @@ def _sides(rng: Random) -> npt.NDArray[np.float64]:
 def _meeting(sides: npt.NDArray[np.float64]) -> tuple[Truths, Truths]:
     """Return which boxes are not apart, and which of these have only a side in common."""
     left, right, bottom, top = sides.T
-    apart = (left[:, None] > right) | (bottom[:, None] > top)
-    edge = (left[:, None] == right) | (bottom[:, None] == top)
-    return ~(apart | apart.T), edge | edge.T
+    is_beyond = (left[:, None] > right) | (bottom[:, None] > top)
+    is_beside = (left[:, None] == right) | (bottom[:, None] == top)
+    are_apart = is_beyond | is_beyond.T
+    have_side = is_beside | is_beside.T
+    return ~are_apart, have_side
 
 
 def main() -> None:
