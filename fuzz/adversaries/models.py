@@ -7,9 +7,9 @@ the result grows. The error is that of the model at s, relative to its remainder
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from itertools import product
 from random import Random
-from typing import Final, TypeAlias
+from typing import Final
 
 from librt.vecs import vec
 
@@ -21,8 +21,7 @@ from fuzz.adversaries.report import Part, Report, run
 
 __all__ = ["PARTS"]
 
-Function: TypeAlias = Callable[[QQ, QQ], QQ]
-UNIT = of_double(U)
+UNIT: Final = of_double(U)
 
 
 def coefficient(rng: Random) -> float:
@@ -56,40 +55,48 @@ def window(rng: Random) -> tuple[float, float]:
 
 def value_of(f: Model, s: QQ) -> QQ:
     """Return the quadratic of a model at s."""
-    c0, c1, c2 = (of_double(c) for c in f[:3])
-    return c0 + s * (c1 + s * c2)
+    c0, c1, c2, _ = f
+    return of_double(c0) + s * (of_double(c1) + s * of_double(c2))
 
 
 def measure(report: Report, f: Model, s: QQ, exact: QQ, what: object) -> None:
     """Compare a model with an exact value."""
-    if not f[3] < INFINITY:
+    rest = models.rest_of(f)
+    if not rest < INFINITY:
         report.count("no model")
         return
-    ratio = abs(value_of(f, s) - exact) / of_double(f[3])
+    ratio = abs(value_of(f, s) - exact) / of_double(rest)
     report.measure(nearest_float(ratio))
     if ratio > 1:
         report.wrong.append(f"{nearest_float(ratio):.4f} {what} {f} s = {s}")
 
 
+def off_most(f: Model, s: QQ, terms: list[QQ]) -> QQ:
+    """Return the sum of terms, each off by U to the side on which the model is worse."""
+    total = sum(terms, QQ(0))
+    off = value_of(f, s) - total
+    return total - sign(off) * UNIT * sum(map(abs, terms))
+
+
 def polynomials(rows: int, seed: int) -> Report:
     """Check models of polynomials whose coefficients are off by U."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
         c = [coefficient(rng) for _ in range(4)]
         middle, half = window(rng)
         s = instant(rng)
         t = of_double(middle) + of_double(half) * s
-        terms = [of_double(c[k]) * t**k for k in range(4)]
+        terms = [of_double(x) * t**k for k, x in enumerate(c)]
         f = models.of_polynomial(vec[float](c), 0, middle, half)
-        off = value_of(f, s) - sum(terms)
-        exact = sum(terms) - sign(off) * UNIT * sum(map(abs, terms))
-        measure(report, f, s, exact, (c, middle, half))
+        measure(report, f, s, off_most(f, s, terms), (c, middle, half))
     return report
 
 
 def long_polynomials(rows: int, seed: int) -> Report:
     """Check models of polynomials of any degree whose coefficients are off by U."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows + report.counts.get("no model", 0) < rows:
         c = [coefficient(rng) for _ in range(rng.randint(1, 9))]
         middle, half = window(rng)
@@ -97,9 +104,7 @@ def long_polynomials(rows: int, seed: int) -> Report:
         t = of_double(middle) + of_double(half) * s
         terms = [of_double(x) * t**k for k, x in enumerate(c)]
         f = models.of_long_polynomial(vec[float](c), 0, len(c), middle, half)
-        off = value_of(f, s) - sum(terms)
-        exact = sum(terms) - sign(off) * UNIT * sum(map(abs, terms))
-        measure(report, f, s, exact, (c, middle, half))
+        measure(report, f, s, off_most(f, s, terms), (c, middle, half))
     return report
 
 
@@ -120,58 +125,73 @@ def farthest(results: list[QQ], f: Model, s: QQ) -> QQ:
 
 def ends(f: Model, s: QQ) -> tuple[QQ, QQ]:
     """Return the least and the largest value of the functions of a model at s."""
-    at_s, rest = value_of(f, s), of_double(f[3])
+    at_s = value_of(f, s)
+    rest = of_double(models.rest_of(f))
     return at_s - rest, at_s + rest
 
 
 def sums(rows: int, seed: int) -> Report:
     """Check sums and differences."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        f, g, s = drawn(rng), drawn(rng), instant(rng)
-        total, difference = models.plus(f, g), models.minus(f, g)
-        pairs = [(x, y) for x in ends(f, s) for y in ends(g, s)]
-        measure(report, total, s, farthest([x + y for x, y in pairs], total, s), (f, g))
-        measure(report, difference, s, farthest([x - y for x, y in pairs], difference, s), (f, g))
+        f = drawn(rng)
+        g = drawn(rng)
+        s = instant(rng)
+        total = models.plus(f, g)
+        difference = models.minus(f, g)
+        pairs = list(product(ends(f, s), ends(g, s)))
+        totals = [x + y for x, y in pairs]
+        differences = [x - y for x, y in pairs]
+        measure(report, total, s, farthest(totals, total, s), (f, g))
+        measure(report, difference, s, farthest(differences, difference, s), (f, g))
     return report
 
 
 def products(rows: int, seed: int) -> Report:
     """Check products."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        f, g, s = drawn(rng), drawn(rng), instant(rng)
-        product = models.times(f, g)
-        exact = [x * y for x in ends(f, s) for y in ends(g, s)]
-        measure(report, product, s, farthest(exact, product, s), (f, g))
+        f = drawn(rng)
+        g = drawn(rng)
+        s = instant(rng)
+        of_both = models.times(f, g)
+        exact = [x * y for x, y in product(ends(f, s), ends(g, s))]
+        measure(report, of_both, s, farthest(exact, of_both, s), (f, g))
     return report
 
 
 def inverses(rows: int, seed: int) -> Report:
     """Check inverses of functions that are nearly constant, and of others."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows + report.counts.get("no model", 0) < rows:
         c0, c1, c2, rest = drawn(rng, 0.3)
-        w = (c0 or 1.0) * rng.choice([1.0, 2.0, 8.0]), c1, c2, rest
+        constant = (c0 or 1.0) * rng.choice([1.0, 2.0, 8.0])
+        w = constant, c1, c2, rest
         s = instant(rng)
         inverse = models.inverse(w)
-        if not inverse[3] < INFINITY:
+        if not models.rest_of(inverse) < INFINITY:
             report.count("no model")
             continue
-        measure(report, inverse, s, farthest([1 / x for x in ends(w, s)], inverse, s), w)
+        exact = [1 / x for x in ends(w, s)]
+        measure(report, inverse, s, farthest(exact, inverse, s), w)
     return report
 
 
 def turns(rows: int, seed: int) -> Report:
     """Check the cosine and the sine of an angle by the tangent of its half."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        h, s = drawn(rng, rng.choice([1.0, 0.1])), instant(rng)
+        h = drawn(rng, rng.choice([1.0, 0.1]))
+        s = instant(rng)
         cosine, sine = models.turn(h)
         tangents = ends(h, s)
         cosines = [(1 - x * x) / (1 + x * x) for x in tangents]
         sines = [2 * x / (1 + x * x) for x in tangents]
-        if cosine[3] == 1.0:
+        if models.rest_of(cosine) == 1.0:
             report.count("coarse")
         measure(report, cosine, s, farthest(cosines, cosine, s), h)
         measure(report, sine, s, farthest(sines, sine, s), h)
@@ -180,15 +200,21 @@ def turns(rows: int, seed: int) -> Report:
 
 def constant_turns(rows: int, seed: int) -> Report:
     """Check the cosine and the sine of an angle and a constant one, whose numbers are off by U."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        f, g, s = drawn(rng), drawn(rng), instant(rng)
-        c, d = coefficient(rng), coefficient(rng)
+        f = drawn(rng)
+        g = drawn(rng)
+        s = instant(rng)
+        c = coefficient(rng)
+        d = coefficient(rng)
         first, second = models.turned(f, g, c, d)
-        factors = [(x * (1 + u), y * (1 + v)) for x, y, u, v in off_by_unit(c, d)]
-        pairs = [(x, y) for x in ends(f, s) for y in ends(g, s)]
-        cosines = [x * c - y * d for x, y in pairs for c, d in factors]
-        sines = [y * c + x * d for x, y in pairs for c, d in factors]
+        cosines: list[QQ] = []
+        sines: list[QQ] = []
+        for x, y in product(ends(f, s), ends(g, s)):
+            for true_c, true_d in product(off_by_unit(c), off_by_unit(d)):
+                cosines.append(x * true_c - y * true_d)
+                sines.append(y * true_c + x * true_d)
         measure(report, first, s, farthest(cosines, first, s), (f, g, c, d))
         measure(report, second, s, farthest(sines, second, s), (f, g, c, d))
     return report
@@ -196,30 +222,35 @@ def constant_turns(rows: int, seed: int) -> Report:
 
 def scalings(rows: int, seed: int) -> Report:
     """Check models times a number that is off by U."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        f, s, c = drawn(rng), instant(rng), coefficient(rng)
+        f = drawn(rng)
+        s = instant(rng)
+        c = coefficient(rng)
         scaled = models.scaled(f, c)
-        exact = [x * of_double(c) * (1 + u) for x in ends(f, s) for u in (-UNIT, UNIT)]
+        exact = [x * true_c for x in ends(f, s) for true_c in off_by_unit(c)]
         measure(report, scaled, s, farthest(exact, scaled, s), (f, c))
     return report
 
 
 def shifts(rows: int, seed: int) -> Report:
     """Check models of functions and a number."""
-    report, rng = Report(), Random(seed)
+    report = Report()
+    rng = Random(seed)
     while report.rows < rows:
-        f, s, c = drawn(rng), instant(rng), coefficient(rng)
+        f = drawn(rng)
+        s = instant(rng)
+        c = coefficient(rng)
         moved = models.moved(f, c)
         exact = [x + of_double(c) for x in ends(f, s)]
         measure(report, moved, s, farthest(exact, moved, s), (f, c))
     return report
 
 
-def off_by_unit(c: float, d: float) -> list[tuple[QQ, QQ, QQ, QQ]]:
-    """Return two numbers, each with -U and U."""
-    signs = (-UNIT, UNIT)
-    return [(of_double(c), of_double(d), u, v) for u in signs for v in signs]
+def off_by_unit(c: float) -> tuple[QQ, QQ]:
+    """Return the numbers that are U of a double below and above it."""
+    return of_double(c) * (1 - UNIT), of_double(c) * (1 + UNIT)
 
 
 PARTS: Final[dict[str, Part]] = {
