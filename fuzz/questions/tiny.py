@@ -3,28 +3,30 @@
 from __future__ import annotations
 
 from random import Random
-from typing import Final
+from typing import Final, TypeAlias
 
 from exactpt import Affine, Body, InputError, Pieces, Rigid, Scene, Translation
 from exactpt.motion.motions import Motion
 
 __all__ = ["pair_scene", "touching_scene"]
 
-SHAPES: Final = (
+Ring: TypeAlias = list[tuple[int, int]]
+
+SHAPES: Final[tuple[Ring, ...]] = (
     [(0, 0)],
     [(0, 0), (2, 1)],
     [(0, 0), (2, 0), (0, 2)],
     [(0, 0), (2, 0), (2, 2), (1, 1)],
 )
-RINGED: Final = (
+RINGED: Final[tuple[list[list[Ring]], ...]] = (
     [[[(-1, -1), (5, -1), (-1, 5)], [(0, 0), (2, 0), (0, 2)]]],
     [[[(-2, -2), (2, -2), (2, 2), (-2, 2)], [(-1, -1), (-1, 1), (1, 0)]]],
     [[[(0, 0), (2, 0), (0, 2)]], [[(2, 2), (1, 2), (2, 1)]]],
 )
 """For each body its parts; for each of these its rings."""
 
-FRAME: Final = [(-4, -4), (6, -4), (6, 7), (-4, 7)]
-WINDOWS: Final = (
+FRAME: Final[Ring] = [(-4, -4), (6, -4), (6, 7), (-4, 7)]
+WINDOWS: Final[tuple[Ring, ...]] = (
     [(-3, -3), (5, -3), (5, 5), (-3, 5)],
     [(0, 0), (4, 0), (4, 4), (0, 4)],
     [(0, 0), (2, 0), (2, 2), (0, 2)],
@@ -34,35 +36,48 @@ WINDOWS: Final = (
 
 def pair_scene(random: Random) -> Scene:
     """Two tiny bodies that pass each other: chains, segments, points, polygons."""
-    bodies = []
-    for name in ("a", "b"):
-        dx, dy = random.randint(-3, 3), random.randint(-3, 3)
-        parts = [
-            [[(x + dx, y + dy) for x, y in ring] for ring in rings] for rings in _parts(random)
-        ]
-        motions: list[Motion] = [
-            Translation([0]),
-            Translation([0, random.randint(-2, 2)], [0, random.randint(-2, 2)]),
-            Translation([0, -2, 1], [0, random.randint(-1, 1)]),
-            Translation([1, -2, 1], [0, 0, 1]),
-            Rigid([0, 1], pivot=(dx, dy)),
-            Pieces([(1, Translation([0, 1])), (None, Translation([2, -1]))]),
-            Pieces([(1, Translation([0, 1])), (None, Translation([0, 1], [-1, 1]))]),
-            Pieces([(2, Translation([0])), (None, Translation([0], [2, -1]))]),
-            Affine([[[1, "-1/2"], [0]], [[0], [1]]]),  # flat at t = 2
-        ]
-        motion, closed = random.choice(motions), random.random() < 0.6
-        if len(parts) == len(parts[0]) == 1:
-            bodies.append(Body(name, parts[0][0], motion, closed=closed))
-        else:
-            made = [{"vertices": outline, "holes": holes} for outline, *holes in parts]
-            bodies.append(Body(name, motion=motion, parts=made))
-    return Scene(bodies, time=(0, 4))
+    return Scene([_passing(random, "a"), _passing(random, "b")], time=(0, 4))
 
 
-def _parts(random: Random) -> list[list[list[tuple[int, int]]]]:
+def _passing(random: Random, name: str) -> Body:
+    """A tiny body near the origin."""
+    dx = random.randint(-3, 3)
+    dy = random.randint(-3, 3)
+    parts = [[_shifted(ring, dx, dy) for ring in rings] for rings in _parts(random)]
+    rest = Translation([0])
+    forward = Translation([0, 1])
+    motions: list[Motion] = [
+        rest,
+        Translation([0, random.randint(-2, 2)], [0, random.randint(-2, 2)]),
+        Translation([0, -2, 1], [0, random.randint(-1, 1)]),
+        Translation([1, -2, 1], [0, 0, 1]),
+        Rigid([0, 1], pivot=(dx, dy)),
+        Pieces([(1, forward), (None, Translation([2, -1]))]),
+        Pieces([(1, forward), (None, Translation([0, 1], [-1, 1]))]),
+        Pieces([(2, rest), (None, Translation([0], [2, -1]))]),
+        Affine([[[1, "-1/2"], [0]], [[0], [1]]]),  # flat at t = 2
+    ]
+    motion = random.choice(motions)
+    is_closed = random.random() < 0.6
+    if len(parts) == 1 and len(parts[0]) == 1:
+        (outline,) = parts[0]
+        return Body(name, outline, motion, closed=is_closed)
+    return Body(
+        name,
+        motion=motion,
+        parts=[{"vertices": outline, "holes": holes} for outline, *holes in parts],
+    )
+
+
+def _shifted(ring: Ring, dx: int, dy: int) -> Ring:
+    """A ring in another place."""
+    return [(x + dx, y + dy) for x, y in ring]
+
+
+def _parts(random: Random) -> list[list[Ring]]:
     """The rings of each part of a tiny shape."""
-    return random.choice(RINGED) if random.random() < 0.2 else [[random.choice(SHAPES)]]
+    has_rings = random.random() < 0.2
+    return random.choice(RINGED) if has_rings else [[random.choice(SHAPES)]]
 
 
 def touching_scene(random: Random) -> Scene:
@@ -89,23 +104,24 @@ def _motion(random: Random) -> Motion:
     later = random.choice([1, 2])
     there = Translation([0, u], [0, v])
     back = Translation([2 * later * u, -u], [2 * later * v, -v])
+    rest = Translation([0])
     motions: list[Motion] = [
-        Translation([0]),
-        Translation([0]),
+        rest,
+        rest,
         there,
         Translation([0, 2 * u, -u], [0, 2 * v, -v]),
         Translation([0, 0, u], [0, 0, v]),
         Translation([0, -u, u], [0, v]),
         Rigid([0, random.choice([1, -1])], pivot=(u, v)),
         Affine([[[1, "1/2"], [0]], [[0], [1]]]),
-        Pieces([(later, Translation([0])), (None, Translation([-later * u, u]))]),
+        Pieces([(later, rest), (None, Translation([-later * u, u]))]),
         Pieces([(later, there), (None, Translation([later * u], [later * v]))]),
         Pieces([(later, there), (None, back)]),
     ]
     return random.choice(motions)
 
 
-def _tiles(random: Random) -> list[list[tuple[int, int]]]:
+def _tiles(random: Random) -> list[Ring]:
     """Some cells of a map: triangles and quadrilaterals that share borders and corners."""
     cells = [
         [(0, 0), (2, 0), (2, 2), (0, 2)],
@@ -117,28 +133,38 @@ def _tiles(random: Random) -> list[list[tuple[int, int]]]:
     return random.sample(cells, random.choice([2, 2, 3]))
 
 
-def _stack(random: Random) -> list[list[tuple[int, int]]]:
+def _stack(random: Random) -> list[Ring]:
     """Boxes on a floor, or on each other, flush or not."""
-    boxes, y = [[(-3, -1), (5, -1), (5, 0), (-3, 0)]], 0
+    floor = [(-3, -1), (5, -1), (5, 0), (-3, 0)]
+    boxes = [floor]
+    bottom = 0
     for _ in range(random.choice([1, 1, 2])):
-        x, height = random.randint(-2, 3), random.randint(1, 2)
-        boxes.append([(x, y), (x + 2, y), (x + 2, y + height), (x, y + height)])
-        y += random.choice([0, height, height])
+        left = random.randint(-2, 3)
+        right = left + 2
+        height = random.randint(1, 2)
+        top = bottom + height
+        boxes.append([(left, bottom), (right, bottom), (right, top), (left, top)])
+        bottom += random.choice([0, height, height])
     return boxes
 
 
-def _nest(random: Random) -> list[list[tuple[int, int]]]:
+def _nest(random: Random) -> list[Ring]:
     """A body in another one, inside or at its border."""
-    square, triangle = [(0, 0), (4, 0), (4, 4), (0, 4)], [(0, 0), (5, 0), (0, 5)]
-    outer = random.choice([square, triangle, [(0, 0), (4, 0), (2, 2), (0, 4)]])
-    x, y = random.randint(0, 2), random.randint(0, 2)
-    return [outer, [(x + u, y + v) for u, v in random.choice(SHAPES)]]
+    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    triangle = [(0, 0), (5, 0), (0, 5)]
+    dart = [(0, 0), (4, 0), (2, 2), (0, 4)]
+    outer = random.choice([square, triangle, dart])
+    dx = random.randint(0, 2)
+    dy = random.randint(0, 2)
+    inner = _shifted(random.choice(SHAPES), dx, dy)
+    return [outer, inner]
 
 
-def _neighbours(random: Random) -> list[list[tuple[int, int]]]:
+def _neighbours(random: Random) -> list[Ring]:
     """Two or three shapes near each other."""
-    shapes = []
+    shapes: list[Ring] = []
     for _ in range(random.choice([2, 2, 3])):
-        x, y = random.randint(-2, 2), random.randint(-2, 2)
-        shapes.append([(x + u, y + v) for u, v in random.choice(SHAPES)])
+        dx = random.randint(-2, 2)
+        dy = random.randint(-2, 2)
+        shapes.append(_shifted(random.choice(SHAPES), dx, dy))
     return shapes
