@@ -4,12 +4,11 @@ The width is compared with what error and speed allow. Let E be the sum of the e
 bodies that meet: a point may be out of place by its distance from the pivot times the error of
 the angle, and the place error of a path. Let v be the least speed, between the bounds, at which
 they approach: that of a vertex to the line of the edge to which it comes, or to another vertex. So
-long as bodies are within E
-they may be in contact, and that lasts E / v before the contact; the width may be 4 E / v. Bodies
-*may graze* if they are within E at the start, if the vertex does not approach all the time (v <=
-0), if an end of the edge is within 2 E of the foot, or if other vertices and edges are within E,
-too, before the contact; without an upper bound also if the vertex does not go on into the body
-until 4 E / v after the lower bound.
+long as bodies are within E they may be in contact, and that lasts E / v before the contact; the
+width may be 4 E / v. Bodies *may graze* if they are within E at the start, if the vertex does not
+approach all the time (v <= 0), if an end of the edge is within 2 E of the foot, or if other
+vertices and edges are within E, too, before the contact; without an upper bound also if the vertex
+does not go on into the body until 4 E / v after the lower bound.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from typing import Final, NamedTuple
 
 import mpmath
 
+from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import Translation
@@ -59,15 +59,23 @@ def path_scene(random: Random) -> Scene:
     """
     end = Fraction(random.randint(1, 4))
     bodies = [_robot(random, f"robot {i}", end) for i in range(random.choice([1, 1, 2]))]
-    for i in range(random.randint(2, 5)):
-        x, y = (Fraction(random.randint(-30, 30), 8) for _ in range(2))
-        size = Fraction(random.randint(1, 8), 8)
-        shape = [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
-        fly = random.choice([Translation(), Velocity(*(_number(random) for _ in range(2)))])
-        radius = Fraction(random.choice([0, 0, 1]), 5)
-        corners = random.choice([1, 2, 3, 4])
-        bodies.append(Body(f"b{i}", shape[:corners], fly, radius=radius))
+    bodies += [_obstacle(random, f"b{i}") for i in range(random.randint(2, 5))]
     return Scene(bodies, time=(0, end))
+
+
+def _obstacle(random: Random, name: str) -> Body:
+    """Some corners of a square, perhaps rounded, at rest or in flight."""
+    left = Fraction(random.randint(-30, 30), 8)
+    bottom = Fraction(random.randint(-30, 30), 8)
+    size = Fraction(random.randint(1, 8), 8)
+    right = left + size
+    top = bottom + size
+    square = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    flight = Velocity(_number(random), _number(random))
+    motion = random.choice([Translation(), flight])
+    radius = Fraction(random.choice([0, 0, 1]), 5)
+    corners = random.choice([1, 2, 3, 4])
+    return Body(name, square[:corners], motion, radius=radius)
 
 
 def _robot(random: Random, name: str, end: Fraction) -> Body:
@@ -75,19 +83,22 @@ def _robot(random: Random, name: str, end: Fraction) -> Body:
     cuts = sorted(Fraction(random.randint(1, 15), 16) * end for _ in range(random.randint(0, 2)))
     times = sorted({Fraction(0), *cuts, end})
     degree = random.choice([1, 3, 3, 5])
-    at = [Fraction(random.randint(-24, 24), 8), Fraction(random.randint(-24, 24), 8), Fraction(0)]
-    poses = []
+    degrees = degree, degree, min(degree, 3)  # of x, y and the angle
+    x = Fraction(random.randint(-24, 24), 8)
+    y = Fraction(random.randint(-24, 24), 8)
+    begins_at = [x, y, Fraction(0)]
+    poses: list[list[list[Fraction]]] = []
     for begin, until in pairwise(times):
-        tops = degree, degree, min(degree, 3)
         pose = [
-            [at[k], *(2 * _number(random) / (j * j) for j in range(1, tops[k] + 1))]
-            for k in range(3)
+            _going_on(random, first, top) for first, top in zip(begins_at, degrees, strict=True)
         ]
-        at = [sum((c * (until - begin) ** j for j, c in enumerate(f)), Fraction(0)) for f in pose]
+        begins_at = [_value(f, until - begin) for f in pose]
         poses.append(pose)
     error = random.choice(["1/50", "1/1000", "1e-6", "1e-6", "1e-9"])
-    path = PosePath(times, poses, error=error, place_error=error if degree > 3 else 0)
-    w, h = Fraction(random.randint(2, 8), 8), Fraction(random.randint(1, 4), 8)
+    place_error = error if degree > 3 else 0
+    path = PosePath(times, poses, error=error, place_error=place_error)
+    w = Fraction(random.randint(2, 8), 8)
+    h = Fraction(random.randint(1, 4), 8)
     shapes: list[Body] = [
         Body(name, [(-w, -h), (w, -h), (w, h), (-w, h)], path),
         Body(name, [(w, 0), (0, 0), (0, 2 * h)], path, closed=False),
@@ -96,7 +107,18 @@ def _robot(random: Random, name: str, end: Fraction) -> Body:
     return shapes[random.randrange(3)]
 
 
+def _going_on(random: Random, first: Fraction, degree: int) -> list[Fraction]:
+    """A polynomial with a first value, whose terms of high degree are small."""
+    return [first, *(2 * _number(random) / (j * j) for j in range(1, degree + 1))]
+
+
+def _value(f: list[Fraction], t: Fraction) -> Fraction:
+    """The value of a polynomial."""
+    return sum((c * t**j for j, c in enumerate(f)), Fraction(0))
+
+
 def _number(random: Random) -> Fraction:
+    """A number from -1 to 1."""
     return Fraction(random.randint(-512, 512), 512)
 
 
@@ -172,6 +194,7 @@ def _time_within(
 
 
 def _times(begin: Real, end: Real) -> list[Real]:
+    """Times from a begin to an end, both included."""
     return [begin + (end - begin) * k / SAMPLES for k in range(SAMPLES + 1)]
 
 
@@ -180,14 +203,20 @@ def _error(body: Body) -> Real:
     motion = body.motion
     if not isinstance(motion, (Spin, PosePath)):
         return mpmath.mpf(0)
-    pivot = mpmath.mpc(*map(real, motion.pivot))
-    off = real(motion.place_error) if isinstance(motion, PosePath) else mpmath.mpf(0)
-    arms = [
-        sum(abs(mpmath.mpc(*(real(f.coefficients[k]) if k <= f.degree else 0 for f in v))
-                - (0 if k else pivot)) * 2**k for k in range(max(f.degree for f in v) + 1))
-        for v in body.vertices
-    ]  # fmt: skip
-    return max(arms) * real(motion.error) + off
+    place_error = real(motion.place_error) if isinstance(motion, PosePath) else mpmath.mpf(0)
+    pivot_x, pivot_y = motion.pivot
+    pivot = mpmath.mpc(real(pivot_x), real(pivot_y))
+    longest = max(_arm(x, y, pivot) for x, y in body.vertices)
+    return longest * real(motion.error) + place_error
+
+
+def _arm(x: Polynomial, y: Polynomial, pivot: Real) -> Real:
+    """A bound on the distance of a vertex from a pivot up to t = 2: the sizes of its terms."""
+    arm = mpmath.mpf(0)
+    for k in range(max(x.degree, y.degree) + 1):
+        term = mpmath.mpc(real(x[k]), real(y[k]))
+        arm += abs(term - pivot if k == 0 else term) * 2**k
+    return arm
 
 
 def _near(truth: Truth, errors: list[Real], t: float) -> set[Approach]:
@@ -201,9 +230,13 @@ def _near(truth: Truth, errors: list[Real], t: float) -> set[Approach]:
 
 def _is_inner(truth: Truth, pair: Approach, t: Real, away: Real) -> bool:
     """Return True if the foot of a perpendicular is so far from the ends of an edge."""
-    p, q = (truth.bodies[pair.j].places(t)[k] for k in pair.ends)
+    first, second = pair.ends
+    places = truth.bodies[pair.j].places(t)
+    p = places[first]
+    q = places[second]
     if p == q:
         return True
     v = truth.bodies[pair.i].places(t)[pair.vertex]
-    along = ((q - p).conjugate() * (v - p)).real / abs(q - p)
-    return bool(away <= along <= abs(q - p) - away)
+    length = abs(q - p)
+    along = ((q - p).conjugate() * (v - p)).real / length
+    return bool(away <= along <= length - away)
