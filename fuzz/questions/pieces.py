@@ -34,13 +34,19 @@ def walkers(random: Random) -> Scene:
 
 
 def _walker(name: str, random: Random) -> Body:
-    x, y, now = random.randint(-12, 12), random.randint(-12, 12), 0
+    """Return a box with another velocity in each piece, at rest in the last one."""
+    x = random.randint(-12, 12)
+    y = random.randint(-12, 12)
+    now = 0
     pieces: list[tuple[int | None, Translation]] = []
     for _ in range(PIECES - 1):
         until = now + random.randint(1, 9)
-        u, v = random.randint(-3, 3), random.randint(-3, 3)
+        u = random.randint(-3, 3)
+        v = random.randint(-3, 3)
         pieces.append((until, Translation([x - u * now, u], [y - v * now, v])))
-        x, y, now = x + u * (until - now), y + v * (until - now), until
+        x += u * (until - now)
+        y += v * (until - now)
+        now = until
     pieces.append((None, Translation([x], [y])))
     return Body(name, [(0, 0), (2, 0), (2, 1), (0, 1)], Pieces(pieces))
 
@@ -53,17 +59,20 @@ def sliders(random: Random) -> Scene:
     """
     dx, dy = random.choice([(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)])
     place = float(random.choice([5, 5, 20, 40]))
-    there, back = Translation([0.0, dx], [0.0, dy]), random.randint(1, 3)
+    there = Translation([0.0, dx], [0.0, dy])
+    turn = random.randint(1, 3)
     motion: Translation | Pieces = there
     if random.random() < 0.5:
-        again = Translation([2.0 * back * dx, -dx], [2.0 * back * dy, -dy])
-        motion = Pieces([(back, there), (None, again)])
+        back = Translation([2.0 * turn * dx, -dx], [2.0 * turn * dy, -dy])
+        motion = Pieces([(turn, there), (None, back)])
     line = [(k * dx, k * dy) for k in range(3)]
-    around = [(place * dx, place * dy), (place * dx + 1.0, 0.0), (1.0, -1.0)]
+    end = place * dx, place * dy
+    around = [end, (place * dx + 1.0, 0.0), (1.0, -1.0)]
+    point_x = -10.0 - random.randint(1, 20)
     bodies = [
         Body("slider", line, motion, closed=False),
         Body("corner", around, closed=False),
-        Body("point", [(-10.0 - random.randint(1, 20), 0.0)], Translation([0.0, 1.0])),
+        Body("point", [(point_x, 0.0)], Translation([0.0, 1.0])),
         Body("post", [(-10.0, -1.0), (-10.0, 1.0)], closed=False),
     ]
     for k in range(random.choice([0, 4])):
@@ -79,12 +88,15 @@ def planks(random: Random) -> Scene:
     unit = random.choice(UNITS)
     bodies = []
     for k in range(random.choice([6, 26])):
-        x, y = -1.5 * k * math.sin(angle), 1.5 * k * math.cos(angle)
+        # Planks begin 1.5 apart, beside each other across the direction.
+        x = -1.5 * k * math.sin(angle)
+        y = 1.5 * k * math.cos(angle)
         turn = angle + random.uniform(-spread, spread)
-        end = x + LENGTH * math.cos(turn), y + LENGTH * math.sin(turn)
-        tip = end[0] - 0.1 * math.sin(turn), end[1] + 0.1 * math.cos(turn)
+        end_x = x + LENGTH * math.cos(turn)
+        end_y = y + LENGTH * math.sin(turn)
+        tip = end_x - 0.1 * math.sin(turn), end_y + 0.1 * math.cos(turn)
         drift = random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)
-        corners = [_times(point, unit) for point in ((x, y), end, tip)]
+        corners = [_times(point, unit) for point in ((x, y), (end_x, end_y), tip)]
         u, v = _times(drift, unit)
         bodies.append(Body(f"p{k}", corners, Translation([0, u], [0, v])))
     return Scene(bodies, time=(0, 3))
@@ -92,4 +104,6 @@ def planks(random: Random) -> Scene:
 
 def _times(vector: tuple[float, float], unit: Fraction) -> tuple[float | Fraction, ...]:
     """Return a vector in another unit: doubles stay doubles, which are read in another way."""
-    return vector if unit == 1 else tuple(Fraction(c) * unit for c in vector)
+    if unit == 1:
+        return vector
+    return tuple(Fraction(c) * unit for c in vector)

@@ -16,21 +16,19 @@ Outline = list[tuple[int, int]]
 GUESTS: Final = 8
 """Number of guests that are tried in a scene."""
 
-INNER: Final = [(4, 3), (-3, 3), (-3, -3), (11, -3), (11, 11), (-11, 11), (-11, -11), (19, -11),
-                (19, 19), (-19, 19), (-19, -19), (27, -19)]  # fmt: skip
-OUTER: Final = [(4, 5), (-5, 5), (-5, -5), (13, -5), (13, 13), (-13, 13), (-13, -13), (21, -13),
-                (21, 21), (-21, 21), (-21, -21), (29, -21)]  # fmt: skip
-"""The two sides of the wall of a spiral."""
+CORNERS: Final = 12
+"""Number of corners of the wall of the longest spiral."""
 
 
 def pocket_scene(random: Random) -> Scene:
     """Return jars, a well, a comb or a spiral with small bodies in and around the pockets."""
     make = random.choice([_jars, _jars, _well, _comb, _spiral])
     bodies = make(random)
-    corners = [corner for body in bodies for corner in body.at(0)]
-    low, high = ([of(int(p[k]) for p in corners) for k in (0, 1)] for of in (min, max))
+    xs = [int(x) for body in bodies for x, _ in body.at(0)]
+    ys = [int(y) for body in bodies for _, y in body.at(0)]
     for number in range(GUESTS):
-        x, y = (random.randint(low[k] - 2, high[k] + 2) for k in (0, 1))
+        x = random.randint(min(xs) - 2, max(xs) + 2)
+        y = random.randint(min(ys) - 2, max(ys) + 2)
         guest = Body(f"guest {number}", _small(random, x, y))
         if not any(_meet(guest, body) for body in bodies):
             bodies.append(guest)
@@ -38,6 +36,7 @@ def pocket_scene(random: Random) -> Scene:
 
 
 def _meet(a: Body, b: Body) -> bool:
+    """Return True if two bodies have a common point at the start."""
     start = QQ(0)
     return bodies_meet(a, a.exact_at(start), b, b.exact_at(start))
 
@@ -46,15 +45,16 @@ def _small(random: Random, x: int, y: int) -> Outline:
     """Return a point, a segment, a triangle, or a small jar."""
     kind = random.randrange(4)
     if kind == 3:
-        return _jar(
-            random, (x, y), width=random.randint(6, 16), depth=random.randint(5, 25), steps=2
-        )
-    points = [(x, y), (x + random.randint(1, 9), y + random.randint(-9, 9)), (x, y + 3)]
-    return points[: kind + 1]
+        width = random.randint(6, 16)
+        depth = random.randint(5, 25)
+        return _jar(random, (x, y), width=width, depth=depth, steps=2)
+    other = x + random.randint(1, 9), y + random.randint(-9, 9)
+    triangle = [(x, y), other, (x, y + 3)]
+    return triangle[: kind + 1]
 
 
 def _jar(random: Random, corner: tuple[int, int], *, width: int, depth: int, steps: int) -> Outline:
-    """Return a jar with uneven walls, open above."""
+    """Return a jar with uneven walls, open above; its inside begins at a corner."""
     left: Outline = []
     right: Outline = []
     for i in range(1, steps + 1):
@@ -62,8 +62,11 @@ def _jar(random: Random, corner: tuple[int, int], *, width: int, depth: int, ste
         left.append((random.randint(-3, width // 3), level))
         right.append((width - random.randint(-3, width // 3), level))
     top = depth + 2
-    outline = [(-10, -5), (width + 10, -5), (width + 10, top), *right, *left[::-1], (-10, top)]
-    return [(a + corner[0], b + corner[1]) for a, b in outline]
+    downward = right  # along the right wall of the inside
+    upward = left[::-1]
+    outline = [(-10, -5), (width + 10, -5), (width + 10, top), *downward, *upward, (-10, top)]
+    corner_x, corner_y = corner
+    return [(x + corner_x, y + corner_y) for x, y in outline]
 
 
 def _jars(random: Random) -> list[Body]:
@@ -74,8 +77,9 @@ def _jars(random: Random) -> list[Body]:
         jars.append(_jar(random, corner, width=40, depth=100, steps=random.randint(1, 9)))
     if random.random() < 0.5:
         lid = _jar(random, (0, 0), width=70, depth=60, steps=8)
-        y = random.randint(140, 160)
-        jars.append([(a + 20, y + 60 - b) for a, b in reversed(lid)])
+        bottom = random.randint(140, 160)
+        upside_down = [(x + 20, bottom + 60 - y) for x, y in reversed(lid)]
+        jars.append(upside_down)
     return [Body(f"jar {i}", outline) for i, outline in enumerate(jars)]
 
 
@@ -98,7 +102,22 @@ def _comb(random: Random) -> list[Body]:
 
 def _spiral(random: Random) -> list[Body]:
     """Return a corridor of width 6 between walls of width 2, wound around the origin."""
-    turns = random.randint(4, len(INNER))
-    outline = [*OUTER[:turns], *reversed(INNER[:turns])]
+    corners = random.randint(4, CORNERS)
+    inner = _side(3)[:corners]
+    outer = _side(5)[:corners]
+    outline = [*outer, *reversed(inner)]
     start = random.randrange(len(outline))
     return [Body("spiral", outline[start:] + outline[:start])]
+
+
+def _side(distance: int) -> Outline:
+    """Return one side of the wall of a spiral: its first piece is at this height.
+
+    Each turn of the spiral, of four corners, is 8 farther out.
+    """
+    side: Outline = [(4, distance)]
+    reach = distance
+    while len(side) < CORNERS:
+        side += [(-reach, reach), (-reach, -reach), (reach + 8, -reach), (reach + 8, reach + 8)]
+        reach += 8
+    return side[:CORNERS]
