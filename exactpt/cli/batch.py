@@ -123,25 +123,25 @@ def batch(
         max_memory=max_memory(),
         max_bytes=MAX_BYTES if most is None else most,
     )
-    share = [0, 1]
+    progress = [0, 1]
     try:
         with estimating("searching", quiet=quiet) as show:
 
             def report(done: int, whole: int) -> None:
-                share[:] = done, whole
+                progress[:] = done, whole
                 show(done, whole)
 
             done = run(scenes, output, options, jobs=jobs, scheduler=scheduler, report=report)
     except KeyboardInterrupt:
         from exactpt.cli import INTERRUPTED
 
-        print_error(_interrupted(output, *share))
+        print_error(_interrupted(output, *progress))
         return INTERRUPTED
     if not quiet:
         print_error(f"{counted(done.scenes, 'scene')} processed, {done.failures} failed")
     if done.failures:
-        scenes_in_all = counted(done.scenes, "scene")
-        raise InputError(f"{done.failures} of {scenes_in_all} without a result; {done.first}")
+        share = f"{done.failures} of {counted(done.scenes, 'scene')}"
+        raise InputError(f"{scenes}: {share} without a result; {done.first}")
     return 0
 
 

@@ -572,7 +572,7 @@ def test_the_command_counts_failures(scenes, tmp_path, capsys):
     assert out.read_text() == EXPECTED
     (reported,) = capsys.readouterr().err.splitlines()
     assert reported.startswith(
-        f"exactpt: {len(MALFORMED)} of {len(SCENES)} scenes without a result; line"
+        f"exactpt: {scenes}: {len(MALFORMED)} of {len(SCENES)} scenes without a result; line"
     )
 
 
