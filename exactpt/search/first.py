@@ -246,8 +246,8 @@ def refuse_conflicts(question: ContactQuery, *, has_groups: bool) -> None:
         has_groups: whether bodies ignore each other, in the scene or for this query.
 
     Raises:
-        InputError: if a tiling or a proof is requested of some pairs or of new contacts, or a proof
-            without a tiling.
+        InputError: if a tiling or a proof is requested of some pairs or of new contacts, a proof
+            without a tiling, or a tiling of a search that keeps none.
     """
     is_proved = question.proof is not None
     names_tiling = question.method == "auto" and question.tiling != "auto"
@@ -261,6 +261,8 @@ def refuse_conflicts(question: ContactQuery, *, has_groups: bool) -> None:
             )
     elif is_proved and question.method == "pairs":
         raise InputError("a proof needs a tiling, and method='pairs' has none")
+    elif question.method == "pairs" and question.tiling != "auto":
+        raise InputError(f"method='pairs' keeps no tiling: leave out {question.tiling!r}")
     if has_groups and needs_tiling:
         why, use = "a tiling", "the method pairs, or auto without a tiling"
         if is_proved:

@@ -48,6 +48,7 @@ WRONG = {
     "a bounce at rest": lambda: Bounce(slowest=0),
     "a text for names": lambda: Bounce(fixed="wall"),
     "no tiling, by pairs": lambda: first_contact(Scene([POINT]), method="pairs", tiling="x"),
+    "a tiling, by pairs": lambda: first_contact(Scene([POINT]), method="pairs", tiling="lazy"),
     "fewer events than none": lambda: Simulation(Scene([POINT]), max_events=-1),
     "no number of seconds": lambda: Simulation(Scene([POINT]), max_seconds=math.nan),
     "a plan that is none": lambda: Simulation(Scene([POINT])).set_motion("p", None),
