@@ -220,7 +220,11 @@ def _check(case: Case, scene: Scene) -> tuple[str, Fault | None]:
 
 
 def shrunk(fault: Fault, seconds: float) -> Fault:
-    """Return the same fault, of the same law and with the same signature, in a smaller scene."""
+    """Return the same fault, of the same law and with the same signature, in a smaller scene.
+
+    A fault that does not come again, such as a time that was too long once, is returned with the
+    words for that.
+    """
     if not fault.scene.bodies:
         return fault  # a law that draws its own cases, which are no scenes
 
@@ -228,6 +232,8 @@ def shrunk(fault: Fault, seconds: float) -> Fault:
         found = look(fault.case, smaller).fault
         return found is not None and found.signature == fault.signature
 
+    if not fails(fault.scene):
+        return fault._replace(why=f"{fault.why}; once, and not when it was repeated")
     scene = shrink(fault.scene, fails, seconds=seconds)
     found = look(fault.case, scene).fault
     return fault if found is None else found._replace(vertices=fault.vertices)

@@ -138,6 +138,23 @@ def test_fault_is_shrunk_to_the_same_signature(broken):
     assert f"python -m fuzz again 'test/triangles' '{fault.case.place}'" in smaller.report
 
 
+def test_fault_that_does_not_come_again_is_reported_as_it_was(monkeypatch):
+    answers = iter([True])
+
+    def fails_once(scene, random):
+        if next(answers, False):
+            raise Difference("slow", "too slow", scene)
+        return "none"
+
+    monkeypatch.setitem(table.LAWS, "test/once", Law(fails_once, ("tiny/pair",)))
+    fault = look(case_of("test/once", 0, 0)).fault
+
+    same = shrunk(fault, 10.0)
+
+    assert same.scene == fault.scene
+    assert same.why == f"{fault.why}; once, and not when it was repeated"
+
+
 def test_exception_is_a_fault_with_its_function_as_signature(monkeypatch):
     def fails(scene, random):
         raise ZeroDivisionError("of nothing")
