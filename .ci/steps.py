@@ -152,7 +152,7 @@ def main(targets: list[str]) -> int:
     print(f"\n clock  processor / {CORES}, in minutes")
     print(*took, total, sep="\n")
     each = total.processor / CORES
-    limit = 60 * float(os.environ.get("LIMIT", "inf"))
+    limit = 60 * float(os.environ.get("LIMIT") or "inf")  # empty is not set
     if each > limit:
         failures.append(f"{_minutes(each)} minutes; the limit is {_minutes(limit)}")
     for failure in failures:
