@@ -67,7 +67,9 @@ class _Commands(click.Group):
         except BrokenPipeError:  # the reader of the output has closed the pipe
             drop_standard_output()
             return OK
-        except (InputError, RoundingError, BudgetExceeded, MemoryError, OSError):
+        except InputError as error:
+            raise _naming_file(error, ctx.meta.get(SCENE_FILE)) from None
+        except (RoundingError, BudgetExceeded, MemoryError, OSError):
             raise
         except (click.exceptions.Exit, click.Abort, click.ClickException):
             raise
@@ -123,6 +125,14 @@ def all_commands() -> dict[str, click.Command]:
     """Return all commands by name."""
     modules = {name: import_module(f"exactpt.cli.{module}") for name, module in _MODULES.items()}
     return {name: getattr(module, name) for name, module in modules.items()}
+
+
+def _naming_file(error: InputError, scene: Path | None) -> InputError:
+    """Return an error that names the scene file, unless it does so or is about an option."""
+    message = str(error)
+    if scene is None or str(scene) in message or message.startswith("--"):
+        return error
+    return InputError(f"{scene}: {message}")
 
 
 def _report_bug(error: Exception, scene: Path | None) -> None:

@@ -137,6 +137,20 @@ def test_bad_calls(tmp_path, monkeypatch, capsys, command, words):
     assert [path.name for path in tmp_path.iterdir()] == ["scene.json"]
 
 
+@pytest.mark.parametrize("command", ["simulate", "tile", "collide --tiling lazy"])
+def test_what_is_refused_after_the_file_was_read_names_it(tmp_path, monkeypatch, capsys, command):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text(scene(box(radius="1")))
+    verb, *options = command.split()
+
+    code = code_of(verb, "scene.json", *options)
+
+    out, err = capsys.readouterr()
+    assert (code, out) == (2, "")
+    assert err.startswith("exactpt: scene.json: body 'box' has a radius: ")
+    assert len(err.splitlines()) == 1
+
+
 @pytest.mark.parametrize("command", ["collide", "simulate", "tile", "draw -o out.svg"])
 def test_no_memory_is_one_line_and_no_bug(command, tmp_path, monkeypatch, capsys):
     """It was reported as a bug, with a traceback or an empty reason, by exit code 3."""
