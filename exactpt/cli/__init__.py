@@ -128,9 +128,9 @@ def all_commands() -> dict[str, click.Command]:
 
 
 def _naming_file(error: InputError, scene: Path | None) -> InputError:
-    """Return an error that names the scene file, unless it does so or is about an option."""
+    """Return an error about a body with the scene file before it; others are as they were."""
     message = str(error)
-    if scene is None or str(scene) in message or message.startswith("--"):
+    if scene is None or not message.startswith("body "):
         return error
     return InputError(f"{scene}: {message}")
 
