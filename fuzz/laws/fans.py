@@ -5,17 +5,20 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from exactpt import Body, RunEvent, Scene, Simulation, onward
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import fraction
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.pseudotriangulation.snapshot import Snapshot
 from fuzz.laws.law import check_equal, refuse_unless
 from fuzz.laws.runs import restored
 from fuzz.witnesses import Difference, tilings_of
 
 __all__ = ["fan_events_lead_from_fan_to_fan", "fan_goes_on_after_a_change"]
+
+DENOMINATOR: Final = 10_007
+"""A prime: the denominator of shares, which no scene has."""
 
 Edges: TypeAlias = set[frozenset[str]]
 """Edges by the names of their ends."""
@@ -38,7 +41,7 @@ def fan_events_lead_from_fan_to_fan(scene: Scene, random: Random) -> str:
     saved_at = random.randrange(len(times))
     edges: Edges | None = None
     events: list[RunEvent] = []
-    for number, time in enumerate(_between(times)):
+    for number, time in enumerate(_between(times, random)):
         if number == saved_at:
             run = restored(run)
         new = list(run.run(until=time))
@@ -88,9 +91,20 @@ def _count_changes(events: list[RunEvent]) -> int:
     return sum(len(e.removed) + len(e.added) for e in events if e.kind == "fan")
 
 
-def _between(times: list[AlgebraicNumber]) -> list[Fraction]:
-    """Return a rational time between any two consecutive ones."""
-    return [fraction(rational_between(a, b)) for a, b in pairwise(times) if a < b]
+def _between(times: list[AlgebraicNumber], random: Random) -> list[Fraction]:
+    """Return a rational time between any two consecutive ones.
+
+    At a simple one, such as 1, points may be in line for an instant, without an event; then fewer
+    edges are there. So it is one of a large denominator.
+    """
+    chosen = []
+    for a, b in pairwise(times):
+        if a < b:
+            first = rational_between(a, b)
+            second = rational_between(AlgebraicNumber(first), b)
+            share = QQ(random.randint(1, DENOMINATOR - 1), DENOMINATOR)
+            chosen.append(fraction(first + share * (second - first)))
+    return chosen
 
 
 def _triangulation(snapshot: Snapshot) -> Edges:
