@@ -182,11 +182,17 @@ def _cuts(edge: Segment, at: Sequence[Segment]) -> list[Point]:
 
 
 def _inner_points(body: Body, points: Sequence[Point]) -> Iterator[Point]:
-    """Yield a point in the interior of each part, on a horizontal line through no vertex."""
+    """Yield a point in the interior of each part, on a horizontal line through no vertex.
+
+    A body that deforms may have a part that is flat at this time: of one that is level there is
+    none, and of another one it is a point of its edges.
+    """
     for rings in body.parts:
         part = [(points[i], points[j]) for i, j in ring_edges((rings,))]
-        low, above = sorted({y for (_, y), _ in part})[:2]
-        y = (low + above) / 2
+        heights = sorted({y for (_, y), _ in part})
+        if len(heights) == 1:
+            continue
+        y = (heights[0] + heights[1]) / 2
         crossings = sorted(
             u[0] + (v[0] - u[0]) * (y - u[1]) / (v[1] - u[1])
             for u, v in part

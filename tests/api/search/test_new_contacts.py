@@ -14,6 +14,7 @@ from exactpt import (
     BudgetExceeded,
     InputError,
     Pieces,
+    Polynomial,
     Rigid,
     Scene,
     Translation,
@@ -287,3 +288,19 @@ def test_wrong_words_of_the_command_are_refused_in_one_line(scene_file, capsys, 
     assert (code, out) == (2, "")
     assert error in err
     assert err.count("\n") == 1
+
+
+def test_body_that_is_flat_for_an_instant_while_it_touches_another_one():
+    """The vertex (1/2, t - 1/2) of a slides along an edge of b, from the start on.
+
+    At t = 1/2 it is at the height of the two others, so that a is flat: its vertex (0, 0) is on the
+    edge between (1/2, 0) and (-1, 0). a and b do not overlap before, nor then.
+    """
+    a = Body("a", [(-1, 0), (0, 0), ("1/2", Polynomial(["-1/2", 1]))])
+    b = Body("b", [(1, 0), ("1/2", -1), ("1/2", 1)])
+
+    contact = first_contact(Scene([a, b], time=(0, 1)), after_start=True)
+
+    assert contact is not None
+    assert contact.kind == "self"
+    assert contact.time == "1/2"
