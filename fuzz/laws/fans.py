@@ -63,7 +63,7 @@ def fan_goes_on_after_a_change(scene: Scene, random: Random) -> str:
     refuse_unless(scene.bodies and "incremental" in tilings_of(scene))
     run = Simulation(scene, tiling="incremental", fan=True)
     refuse_unless(run.contact is None)
-    span, place = scene.end - scene.start, Fraction(random.randint(1, 99), 101)
+    span, place = scene.end - scene.start, Fraction(random.randint(1, DENOMINATOR - 1), DENOMINATOR)
     events = list(run.run(until=scene.start + place * span))
     refuse_unless(run.contact is None)
     before = _triangulation(run.tiling)
