@@ -50,8 +50,9 @@ __all__ = ["AlgebraicNumber", "linear_root", "multiple_before", "rational_betwee
 
 COARSE: Final = power_of_two(-30)
 """Down to this width a number is refined before a sign at it is asked of polynomials."""
+LINEAR: Final = 2
 QUADRATIC: Final = 3
-"""The number of coefficients of a polynomial with two roots: others become linear at them."""
+"""Numbers of coefficients. At a root of a quadratic polynomial others become linear."""
 FINE: Final = power_of_two(-100)
 """Interval width below which two overlapping numbers are tested for equality by a gcd."""
 
@@ -111,9 +112,7 @@ class AlgebraicNumber(RealNumber):
         """Return the sign of f at this number."""
         if self.exact_low == self.exact_high:
             return sign_at(f, self.exact_low)
-        if len(f) <= 1:
-            return sign(f[0]) if f else 0
-        if len(self.exact_polynomial) > QUADRATIC:
+        if len(f) > LINEAR and len(self.exact_polynomial) > QUADRATIC:
             # Most signs are not 0, and a few steps show them. A common factor takes longer to find.
             s = self._sign_down_to(f, COARSE)
             if s:
@@ -122,11 +121,8 @@ class AlgebraicNumber(RealNumber):
             f = positive_remainder(f, self.exact_polynomial)
         if len(f) <= 1:
             return sign(f[0]) if f else 0
-        if len(f) == 2:
+        if len(f) == LINEAR:
             return sign(f[1]) * self.compare_rational(QQ(-f[0], f[1]))
-        s = sign_on(f, self.exact_low, self.exact_high)
-        if s:
-            return s
         common = greatest_common_divisor(f, self.exact_polynomial)
         if (
             len(common) > 1

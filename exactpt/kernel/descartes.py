@@ -7,12 +7,12 @@ isolation by bisection).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import accumulate
 from typing import Final
 
 from exactpt.kernel.budget import LONG, check_budget
-from exactpt.kernel.integer_polynomial import IntPoly
+from exactpt.kernel.integer_polynomial import IntPoly, on_unit_interval
 from exactpt.kernel.numbers import QQ, ZZ, sign
 from exactpt.kernel.sturm import sign_changes
 
@@ -32,7 +32,7 @@ def single_roots(f: IntPoly, low: QQ, high: QQ) -> Iterator[tuple[QQ, QQ, bool]]
         low: the left end.
         high: the right end, greater than ``low``.
     """
-    stack = [(_on_unit_interval(f, low, high), low, high, HALVINGS)]
+    stack = [(on_unit_interval(f, low, high), low, high, HALVINGS)]
     while stack:
         g, left, right, halvings = stack.pop()
         most = _variations(g)
@@ -52,21 +52,6 @@ def single_roots(f: IntPoly, low: QQ, high: QQ) -> Iterator[tuple[QQ, QQ, bool]]
         stack.append((first, left, middle, halvings - 1))
 
 
-def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
-    """Return a positive multiple of f(low + (high - low) s)."""
-    width = high - low
-    scale = low.denominator * width.denominator
-    g = _stretch(f[::-1], ZZ(scale))[::-1]  # scale^deg(f) f(t / scale)
-    by = ZZ(low.numerator * width.denominator)
-    if by:
-        for i in range(len(g) - 1):
-            if len(g) > LONG:
-                check_budget()
-            for j in range(len(g) - 2, i - 1, -1):
-                g[j] += by * g[j + 1]
-    return _stretch(g, ZZ(width.numerator * low.denominator))
-
-
 def _variations(g: list[ZZ]) -> int:
     """Return an upper bound on the number of roots of g in (0, 1), counted with multiplicity.
 
@@ -75,16 +60,6 @@ def _variations(g: list[ZZ]) -> int:
     even number, so 0 and 1 are exact.
     """
     return sign_changes([sign(c) for c in _shifted_by_one(g[::-1])])
-
-
-def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
-    """Return the coefficients of g(factor s)."""
-    power = ZZ(1)
-    result = []
-    for c in g:
-        result.append(c * power)
-        power *= factor
-    return result
 
 
 def _shifted_by_one(g: list[ZZ]) -> list[ZZ]:

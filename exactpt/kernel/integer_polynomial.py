@@ -14,9 +14,8 @@ substitution).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
-from math import lcm
 from typing import Final, TypeAlias
 
 from exactpt.kernel.budget import LONG, check_budget
@@ -125,26 +124,38 @@ def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
 def sign_near(f: IntPoly, low: QQ, high: QQ) -> int:
     """Return the constant sign of f on [low, high] if its Taylor polynomial proves one, else 0.
 
-    At the middle m, of half the width r, f differs from f(m) by at most the sum of |f_k| r^k over
-    its other Taylor coefficients f_k. Far from 0, where terms of f are large and cancel, that is
-    much less than what `sign_on` loses; it takes longer.
+    At the middle, in units of half the width, f differs from its constant term by at most the sum
+    of the sizes of the others. Far from 0, where terms of f are large and cancel, that is much
+    less than what `sign_on` loses; it takes longer.
     """
-    middle = (low + high) / 2
-    radius = high - middle
-    unit = lcm(middle.denominator, radius.denominator)
-    center, reach = ZZ(middle * unit), ZZ(radius * unit)
-    # In units of 1 / unit, and times unit^n: integers.
-    taylor, power = list(f), ZZ(1)
-    for k in range(len(f) - 1, -1, -1):
-        taylor[k] *= power
-        power *= unit
-    for first in range(len(f) - 1):
-        for k in range(len(f) - 2, first - 1, -1):
-            taylor[k] += center * taylor[k + 1]
-    change = ZZ(0)
-    for c in reversed(taylor[1:]):
-        change = (change + abs(c)) * reach
-    return sign(taylor[0]) if abs(taylor[0]) > change else 0
+    constant, *others = on_unit_interval(f, (low + high) / 2, high)
+    change = sum(map(abs, others), ZZ(0))
+    return sign(constant) if abs(constant) > change else 0
+
+
+def on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
+    """Return a positive multiple of f(low + (high - low) s)."""
+    width = high - low
+    scale = low.denominator * width.denominator
+    g = stretch(f[::-1], ZZ(scale))[::-1]  # scale^deg(f) f(t / scale)
+    by = ZZ(low.numerator * width.denominator)
+    if by:
+        for i in range(len(g) - 1):
+            if len(g) > LONG:
+                check_budget()
+            for j in range(len(g) - 2, i - 1, -1):
+                g[j] += by * g[j + 1]
+    return stretch(g, ZZ(width.numerator * low.denominator))
+
+
+def stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
+    """Return the coefficients of g(factor s)."""
+    power = ZZ(1)
+    result = []
+    for c in g:
+        result.append(c * power)
+        power *= factor
+    return result
 
 
 def range_on(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
