@@ -67,3 +67,23 @@ class Blocks:
         is_beside = self._left[block] > right or self._right[block] < left
         is_above_or_below = self._bottom[block] > top or self._top[block] < bottom
         return not (is_beside or is_above_or_below) or self._zero != 0.0
+
+
+def next_near(
+    blocks: Blocks | None, k: i64, left: float, right: float, bottom: float, top: float
+) -> i64:
+    """Return the first feature from k on whose block may meet a box; there may be none.
+
+    Args:
+        blocks: the blocks of all features; None if they are few, and all of them count.
+        k: the number of a feature, the next one after a feature that counts.
+        left: the box.
+        right: likewise.
+        bottom: likewise.
+        top: likewise.
+    """
+    if blocks is None or k % BLOCK != 0:
+        return k
+    while k < blocks.count and not blocks.may_meet(k // BLOCK, left, right, bottom, top):
+        k += BLOCK
+    return k

@@ -40,7 +40,7 @@ from exactpt.filters.candidates import (
 )
 from exactpt.filters.rounding import INFINITY, SLACK, TINY, U4
 from exactpt.filters.rows import STRAIGHT, Table
-from exactpt.filters.windows import ROW, X0, X1, X2, Y0, Y1, Y2, Window, edge_box
+from exactpt.filters.windows import ROW, X0, X1, X2, Y0, Y1, Y2, Window, are_apart, edge_box
 from exactpt.filters.zeros import MAYBE, NONE, SURE, Zero
 
 ROUGH: Final = 2.0**-10
@@ -118,7 +118,7 @@ class Filter:
             self._step()
             self._fill(a, b, begin, end)
             q = self.p if a == b else self.q
-            if a != b and self.apart(self.p, q, self.distance):
+            if a != b and are_apart(self.p, q, self.distance):
                 continue
             if end - begin > shortest and self._is_rough(self.p, q, wholes[n]):
                 is_coarse = self.p.is_coarse or q.is_coarse
@@ -177,16 +177,6 @@ class Filter:
         remainder = p.remainder + q.remainder
         is_smaller = remainder < 0.5 * whole
         return is_smaller and remainder > ROUGH * (width + height + self.distance)
-
-    def apart(self, p: Window, q: Window, distance: float) -> bool:
-        """Return True if two boxes are farther apart than a distance, in x or in y."""
-        d = distance * SLACK + TINY
-        return (
-            p.left > q.right + d
-            or q.left > p.right + d
-            or p.bottom > q.top + d
-            or q.bottom > p.top + d
-        )
 
     def _collect_window(self, q: Window, found: Candidates) -> None:
         """Add the candidates of a window of time."""

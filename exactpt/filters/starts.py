@@ -46,12 +46,11 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
-from exactpt.filters.blocks import BLOCK, FEW, Blocks
+from exactpt.filters.blocks import FEW, Blocks, next_near
 from exactpt.filters.boxes import strips, zeros
-from exactpt.filters.features import Filter
 from exactpt.filters.rounding import INFINITY, SLACK, TINY, U
 from exactpt.filters.rows import Table, append_box
-from exactpt.filters.windows import ROW, Y0, Window, edge_box
+from exactpt.filters.windows import ROW, Y0, Window, are_apart, edge_box
 
 APART: Final[i64] = -1
 NOT_CERTAIN: Final[i64] = 0
@@ -72,7 +71,6 @@ class Starts:
     """
 
     def __init__(self, table: Table, t: float) -> None:
-        self._filter = Filter(table)
         self._first = Snapshot(table, t)
         self._second = Snapshot(table, t)
 
@@ -83,7 +81,7 @@ class Starts:
         second.take(j)
         table = first.table
         distance = table.radius[i] + table.radius[j]
-        if self._filter.apart(first.window, second.window, distance):
+        if are_apart(first.window, second.window, distance):
             return True
         pair, swapped = Pair(first, second), Pair(second, first)
         is_small = table.size[i] * table.size[j] <= FEW_FEATURE_PAIRS
@@ -114,7 +112,7 @@ class Snapshot:
         self._t = t
         self._blocks: Blocks | None = None
         self._parts: vec[i64] | None = None
-        self._rings: i64 = -1
+        self._has_ring: bool | None = None
 
     def take(self, piece: i64) -> None:
         """Become that of another piece."""
@@ -122,13 +120,13 @@ class Snapshot:
             return
         self.piece = piece
         self.window.fill(self.table, piece, self._t, 0.0)
-        self._blocks, self._parts, self._rings = None, None, -1
+        self._blocks, self._parts, self._has_ring = None, None, None
 
     def has_ring(self) -> bool:
         """See `has_ring`."""
-        if self._rings < 0:
-            self._rings = 1 if has_ring(self.table, self.piece) else 0
-        return self._rings == 1
+        if self._has_ring is None:
+            self._has_ring = has_ring(self.table, self.piece)
+        return self._has_ring
 
     def vertices_of_parts(self) -> vec[i64]:
         """See `vertices_of_parts`."""
@@ -143,16 +141,11 @@ class Snapshot:
         """
         found = vec[i64]()
         count = self.table.edges[self.piece]
-        edge: i64 = 0
+        blocks = self._edge_blocks() if count > FEW else None
+        edge = next_near(blocks, 0, left, right, bottom, top)
         while edge < count:
-            is_far = count > FEW and not self._edge_blocks().may_meet(
-                edge // BLOCK, left, right, bottom, top
-            )
-            after = min(edge + BLOCK, count)
-            while edge < after and not is_far:
-                found = append(found, edge)
-                edge += 1
-            edge = after
+            found = append(found, edge)
+            edge = next_near(blocks, edge + 1, left, right, bottom, top)
         return found
 
     def _edge_blocks(self) -> Blocks:

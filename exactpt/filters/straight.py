@@ -67,7 +67,7 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
-from exactpt.filters.blocks import BLOCK, FEW, Blocks
+from exactpt.filters.blocks import FEW, Blocks, next_near
 from exactpt.filters.boxes import strips
 from exactpt.filters.candidates import Candidates, vertex_on_edge
 from exactpt.filters.models import ROUNDING
@@ -287,79 +287,40 @@ class Passage:
 
     def near_vertices(self) -> vec[i64]:
         """Return the vertices that may come into the box of the other piece in the window."""
-        left, right, bottom, top = self.table.box(self.b)
+        table = self.table
+        xs, ys = table.xs, table.ys
+        left, right, bottom, top = table.box(self.b)
         left, right = left - self.most_x, right - self.least_x
         bottom, top = bottom - self.most_y, top - self.least_y
-        near, count = vec[i64](), self.table.size[self.a]
-        if count <= FEW:
-            return self.add_near_vertices(near, 0, count, left, right, bottom, top)
-        blocks = blocks_of_vertices(self.table, self.a)
-        block: i64 = 0
-        while block * BLOCK < count:
-            if blocks.may_meet(block, left, right, bottom, top):
-                first, after = block * BLOCK, min((block + 1) * BLOCK, count)
-                near = self.add_near_vertices(near, first, after, left, right, bottom, top)
-            block += 1
-        return near
-
-    def add_near_vertices(
-        self,
-        near: vec[i64],
-        first: i64,
-        after: i64,
-        left: float,
-        right: float,
-        bottom: float,
-        top: float,
-    ) -> vec[i64]:
-        """Return some vertices, and after them those of a range that are in a box, perhaps."""
-        xs, ys = self.table.xs, self.table.ys
-        place, vertex = self.table.place[self.a], first
-        while vertex < after:
+        near = vec[i64]()
+        place, count = table.place[self.a], table.size[self.a]
+        blocks = blocks_of_vertices(table, self.a)
+        vertex = next_near(blocks, 0, left, right, bottom, top)
+        while vertex < count:
             x, y = xs[place + vertex], ys[place + vertex]
             if not (x < left or x > right or y < bottom or y > top):
                 near = append(near, vertex)
-            vertex += 1
+            vertex = next_near(blocks, vertex + 1, left, right, bottom, top)
         return near
 
     def near_edges(self) -> vec[i64]:
         """Return the edges to whose boxes the box of the piece of the vertices may come."""
-        left, right, bottom, top = self.table.box(self.a)
-        left, right = left + self.least_x, right + self.most_x
-        bottom, top = bottom + self.least_y, top + self.most_y
-        near, count = vec[i64](), self.table.edges[self.b]
-        if count <= FEW:
-            return self.add_near_edges(near, 0, count, left, right, bottom, top)
-        blocks = blocks_of_edges(self.table, self.b)
-        block: i64 = 0
-        while block * BLOCK < count:
-            if blocks.may_meet(block, left, right, bottom, top):
-                first, after = block * BLOCK, min((block + 1) * BLOCK, count)
-                near = self.add_near_edges(near, first, after, left, right, bottom, top)
-            block += 1
-        return near
-
-    def add_near_edges(
-        self,
-        near: vec[i64],
-        first: i64,
-        after: i64,
-        left: float,
-        right: float,
-        bottom: float,
-        top: float,
-    ) -> vec[i64]:
-        """Return some edges, and after them those of a range whose boxes may meet a box."""
         table = self.table
         xs, ys = table.xs, table.ys
-        place, of_edges, edge = table.place[self.b], table.edge[self.b], first
-        while edge < after:
-            i, j = place + table.begins[of_edges + edge], place + table.ends[of_edges + edge]
+        left, right, bottom, top = table.box(self.a)
+        left, right = left + self.least_x, right + self.most_x
+        bottom, top = bottom + self.least_y, top + self.most_y
+        near = vec[i64]()
+        place, first, count = table.place[self.b], table.edge[self.b], table.edges[self.b]
+        blocks = blocks_of_edges(table, self.b)
+        edge = next_near(blocks, 0, left, right, bottom, top)
+        while edge < count:
+            i, j = place + table.begins[first + edge], place + table.ends[first + edge]
             is_apart_in_x = (xs[i] < left and xs[j] < left) or (xs[i] > right and xs[j] > right)
             is_apart_in_y = (ys[i] < bottom and ys[j] < bottom) or (ys[i] > top and ys[j] > top)
             if not (is_apart_in_x or is_apart_in_y):
                 near = append(near, edge)
-            edge += 1
+            edge = next_near(blocks, edge + 1, left, right, bottom, top)
         return near
 
     def near_pairs(self, vertices: vec[i64], edges: vec[i64]) -> vec[i64]:
@@ -511,8 +472,13 @@ def add_side(boxes: vec[float], x: float, y: float) -> vec[float]:
     return append(append(boxes, -INFINITY), INFINITY)
 
 
-def blocks_of_vertices(table: Table, k: i64) -> Blocks:
-    """Return the blocks of the places of a piece; all pieces of a body have the same ones."""
+def blocks_of_vertices(table: Table, k: i64) -> Blocks | None:
+    """Return the blocks of the places of a piece; None if they are few.
+
+    All pieces of a body have the same places, and so the same blocks.
+    """
+    if table.size[k] <= FEW:
+        return None
     place = table.place[k]
     blocks = table.vertex_blocks.get(int(place))
     if blocks is None:
@@ -526,8 +492,10 @@ def blocks_of_vertices(table: Table, k: i64) -> Blocks:
     return blocks
 
 
-def blocks_of_edges(table: Table, k: i64) -> Blocks:
+def blocks_of_edges(table: Table, k: i64) -> Blocks | None:
     """Return the blocks of the edges between the places of a piece, as `blocks_of_vertices`."""
+    if table.edges[k] <= FEW:
+        return None
     place, xs, ys = table.place[k], table.xs, table.ys
     blocks = table.edge_blocks.get(int(place))
     if blocks is None:

@@ -39,7 +39,7 @@ from exactpt.filters.models import (
     turn,
     turned,
 )
-from exactpt.filters.rounding import INFINITY, SLACK
+from exactpt.filters.rounding import INFINITY, SLACK, TINY
 from exactpt.filters.rows import (
     AFFINE,
     COEFFICIENTS,
@@ -326,6 +326,13 @@ class Window:
         self.right = right + margin
         self.bottom = bottom - margin
         self.top = top + margin
+
+
+def are_apart(p: Window, q: Window, distance: float) -> bool:
+    """Return True if the boxes of two windows are farther apart than a distance, in x or in y."""
+    d = distance * SLACK + TINY
+    is_beside = p.left > q.right + d or q.left > p.right + d
+    return is_beside or p.bottom > q.top + d or q.bottom > p.top + d
 
 
 def quotients(table: Table, piece: i64, v: i64, middle: float, half: float) -> tuple[Model, Model]:

@@ -26,8 +26,7 @@ needs_plain = pytest.mark.skipif(not is_plain, reason="compiled code cannot be e
 def in_twos() -> Iterator[None]:
     """Let all pieces have blocks, of two features each."""
     with ExitStack() as stack:
-        for module in (blocks, starts, straight):
-            stack.enter_context(patch.object(module, "BLOCK", 2))
+        stack.enter_context(patch.object(blocks, "BLOCK", 2))
         for module in (starts, straight):
             stack.enter_context(patch.object(module, "FEW", 0))
         yield
@@ -93,25 +92,12 @@ MISTAKES = {
     "a side of a box": Edit(Blocks, "add", "max(self._right[block], right)", "right"),
     "the other side": Edit(Blocks, "add", "min(self._bottom[block], bottom)", "bottom"),
     "in x and in y": Edit(Blocks, "may_meet", "not (is_beside or", "not (not is_beside or"),
-    "the last vertices": Edit(
-        straight.Passage,
-        "near_vertices",
-        "min((block + 1) * BLOCK, count)",
-        "min(block * BLOCK + 1, count)",
-    ),
-    "the last edges": Edit(
-        straight.Passage,
-        "near_edges",
-        "min((block + 1) * BLOCK, count)",
-        "min(block * BLOCK + 1, count)",
-    ),
-    "the last edges at the start": Edit(
-        starts.Snapshot, "edges_near", "while edge < after", "while edge + 1 < after"
+    "the first after a block": Edit(blocks, "next_near", "k += BLOCK", "k += BLOCK + 1"),
+    "the first of a block": Edit(
+        blocks, "next_near", "while k < blocks.count and not", "while k < blocks.count and"
     ),
     "the ray": Edit(starts.Pair, "is_outside", "edges_near(x, INFINITY", "edges_near(x, x"),
-    "blocks of another piece": Edit(
-        starts.Snapshot, "take", "self._blocks, self._parts, self._rings = None, None, -1", "pass"
-    ),
+    "blocks of another piece": Edit(starts.Snapshot, "take", "self._blocks, self._parts", "_, _"),
 }
 
 

@@ -355,7 +355,7 @@ PLANTED = {
     ),
     "edges with one end outside left out": Edit(
         PASSAGE,
-        "add_near_edges",
+        "near_edges",
         "(xs[i] < left and xs[j] < left)",
         "(xs[i] < left or xs[j] < left)",
     ),
