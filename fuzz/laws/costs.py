@@ -48,7 +48,7 @@ SHARE_OF_CHANGES: Final = 1.5
 MARGIN: Final = 8
 """Number by which a count may grow beyond that, for each bystander."""
 
-READ: Final = 4
+READ: Final = 2
 """Number of looks at the clock, beyond that, for each vertex of bystanders after four of each."""
 
 COUNTED: Final = ("starts", "certificates", "exact")
@@ -108,18 +108,17 @@ def one_large_body(scene: Scene) -> tuple[Scene, int]:
 
 
 def one_frame_around(scene: Scene) -> tuple[Scene, int]:
-    """Add a body at rest around all others: a square with a round hole of 100 vertices.
+    """Add a body at rest around all others: a C of 100 vertices, ten times as large as the scene.
 
-    The hole is ten times as large as the scene. Its vertices are (1 - t^2, 2 t) / (1 + t^2) times
-    its radius, and the opposite points.
+    Its inner side is an arc of the points (1 - t^2, 2 t) / (1 + t^2) times a radius, and its outer
+    side has twice the radius.
     """
     _, far = _size_and_far(scene)
-    turns = [QQ(2 * k - 49, 50) for k in range(50)]
-    half = [(far * (1 - t * t) / (1 + t * t), far * 2 * t / (1 + t * t)) for t in turns]
-    hole = [*half, *((-x, -y) for x, y in half)]
-    square = [(-2 * far, -2 * far), (2 * far, -2 * far), (2 * far, 2 * far), (-2 * far, 2 * far)]
-    outline, inside = ([tuple(map(fraction, p)) for p in ring] for ring in (square, hole))
-    body = Body("bystander", outline, holes=[inside])
+    turns = [3 * QQ(2 * k - 49, 50) for k in range(50)]
+    arc = [((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)) for t in turns]
+    inner = [(far * x, far * y) for x, y in arc]
+    outer = [(2 * x, 2 * y) for x, y in reversed(inner)]
+    body = Body("bystander", [tuple(map(fraction, p)) for p in (*inner, *outer)])
     return Scene([*scene.bodies, body], (scene.start, scene.end)), 1
 
 
