@@ -21,6 +21,7 @@ from exactpt.cli.options import (
     names_in,
     output,
     two_names,
+    typed,
 )
 from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import print_error
@@ -97,16 +98,8 @@ def batch(
     """
     from exactpt.batch import Options, run
 
-    first_contact_only = {
-        "--tiling": tiling != "auto",
-        "--method": method != "auto",
-        "--ignore": bool(ignore),
-        "--after-start": after_start,
-        "--between": bool(between),
-        "--exact-only": exact_only,
-    }
-    given = [option for option, is_given in first_contact_only.items() if is_given]
-    _check_question(every=every, distance=distance, first_contact_only=given)
+    of_first = typed("tiling", "method", "ignore", "after_start", "between", "exact_only")
+    _check_question(every=every, distance=distance, first_contact_only=of_first)
     most = max_bytes()
     options = Options(
         every=every,
@@ -125,11 +118,11 @@ def batch(
     )
     progress = [0, 1]
     try:
-        with estimating("searching", quiet=quiet) as show:
+        with estimating("searching", quiet=quiet) as tell:
 
             def report(done: int, whole: int) -> None:
                 progress[:] = done, whole
-                show(done, whole)
+                tell(done, whole)
 
             done = run(scenes, output, options, jobs=jobs, scheduler=scheduler, report=report)
     except KeyboardInterrupt:

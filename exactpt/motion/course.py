@@ -264,11 +264,9 @@ class Course:
     def place(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
         """Return the position of a vertex at a time."""
         last = self._last
-        return (
-            last[1][vertex]
-            if last is not None and last[0] == t
-            else self.after(t).position(vertex, t)
-        )
+        if last is not None and last[0] == t:
+            return last[1][vertex]
+        return self.after(t).position(vertex, t)
 
     def _check_continuity(self, motion: Pieces) -> None:
         for t, (before, after) in zip(motion.exact_until, pairwise(motion.motions), strict=True):

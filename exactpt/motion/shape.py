@@ -166,9 +166,9 @@ class Shape:
             return [x - xs[0] for x in xs], [y - ys[0] for y in ys]
         places = [self.rest_place(vertex) for vertex in range(self.size)]
         x0, y0 = places[0]
-        return [nearest_float(x - x0) for x, _ in places], [
-            nearest_float(y - y0) for _, y in places
-        ]
+        dxs = [nearest_float(x - x0) for x, _ in places]
+        dys = [nearest_float(y - y0) for _, y in places]
+        return dxs, dys
 
     def after(self, t: QQ) -> tuple[Position, ...]:
         """Return the motion just after a time; it rests outside the keyframes."""

@@ -9,7 +9,7 @@ from exactpt.brief import counted, record_in_brief
 from exactpt.cached_property import cached_property
 from exactpt.errors import InputError
 from exactpt.filters.boxes import Drift, during
-from exactpt.filters.rounding import U4
+from exactpt.filters.rounding import U8
 from exactpt.filters.rows import Box
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import check_budget
@@ -177,8 +177,8 @@ class Surroundings:
     def _gaps(self, t: QQ) -> list[float]:
         """Return lower bounds of the distances of the others at a time: those of their boxes.
 
-        The sides of a box are rounded outward. A gap is the difference of two of them, rounded, and
-        is made less by more than that.
+        The sides of a box are rounded outward. A gap is the length of two differences of them:
+        these are off by U of themselves, ``hypot`` by less than 2 U, and the product by U.
         """
         if len(self.others) <= FEW:
             return [0.0] * len(self.others)
@@ -211,7 +211,7 @@ def _gap(one: Box, two: Box) -> float:
     left, right, bottom, top = one
     low_x, high_x, low_y, high_y = two
     x, y = max(0.0, low_x - right, left - high_x), max(0.0, low_y - top, bottom - high_y)
-    return math.hypot(x, y) * (1.0 - U4)
+    return math.hypot(x, y) * (1.0 - U8)
 
 
 @overload
